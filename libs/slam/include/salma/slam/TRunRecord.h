@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/math/TPoint2D.h>
+#include <mrpt/poses/CPose2D.h>
+#include <salma/association/TMeasurement.h>
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace salma::slam {
+
+enum class EDecision { paired, created, deferred, clutter, relocated, provisional };
+
+/// What the robot saw in a step, as the colours of Ho's fig 3.1 tell it.
+enum class ESight { nothing, first, again };
+
+struct TTrajectoryRow {
+    double time{0};                                       //!< [s since 1970]
+    mrpt::poses::CPose2D pose;                            //!< T_w_r, estimated.
+    Eigen::Matrix3d covariance{Eigen::Matrix3d::Zero()};  //!< Of (x, y, heading) [m, rad].
+    mrpt::poses::CPose2D odometry;                        //!< T_o_r, odometry alone.
+    ESight sight{ESight::nothing};
+};
+
+/// A row of associations.csv. NaN stands for "has none" and is written as an empty cell.
+struct TAssociationRow {
+    double time{0};
+    std::size_t observation{0};  //!< Index in its step.
+    association::ELandmarkKind kind{association::ELandmarkKind::corner};
+    double range{0};    //!< [m]
+    double bearing{0};  //!< [rad]
+    double u{0}, v{0};  //!< Centre in the picture [px]; NaN for a corner.
+    EDecision decision{EDecision::clutter};
+    int landmark{-1};     //!< Id; -1 for none.
+    double distance2{0};  //!< Squared Mahalanobis distance to it; NaN for none.
+    double logRatio{0};   //!< Log likelihood ratio of the appearance; NaN for none.
+    std::size_t candidates{0};
+};
+
+/// A row of candidates.csv: a landmark inside the gate of an observation.
+struct TCandidateRow {
+    double time{0};
+    std::size_t observation{0};
+    int landmark{0};
+    double distance2{0};
+    double logRatio{0};  //!< NaN without appearance.
+    bool chosen{false};
+};
+
+/// A row of innovations.csv.
+struct TInnovationRow {
+    double time{0};
+    std::string component;  //!< "range_m" or "bearing_deg".
+    double value{0};        //!< In the component's unit.
+    double sigma{0};        //!< In the component's unit, from the innovation covariance.
+};
+
+struct TMapLandmark {
+    int id{0};
+    association::ELandmarkKind kind{association::ELandmarkKind::corner};
+    mrpt::math::TPoint2D mean;                            //!< [m], world.
+    Eigen::Matrix2d covariance{Eigen::Matrix2d::Zero()};  //!< [m^2]
+    mrpt::math::TPoint2D firstMean;                       //!< When it was first seen.
+    Eigen::Matrix2d firstCovariance{Eigen::Matrix2d::Zero()};
+    std::size_t sightings{0};
+    double firstTime{0}, lastTime{0};                   //!< [s since 1970]
+    std::shared_ptr<const observations::TPatch> patch;  //!< Null for a corner.
+};
+
+/// All that a run leaves; the files of a run folder are written from it alone.
+struct TRunRecord {
+    std::vector<TTrajectoryRow> trajectory;
+    std::vector<TMapLandmark> landmarks;
+    std::vector<TAssociationRow> associations;
+    std::vector<TCandidateRow> candidates;
+    std::vector<TInnovationRow> innovations;
+    std::vector<mrpt::math::TPoint2D>
+        scanPoints;  //!< Laser points at the estimated poses, thinned [m].
+    std::vector<std::string> notices;
+    std::size_t pictures{0};
+    std::size_t picturesWithoutLandmark{0};
+    double seconds{0};  //!< Wall time of the run.
+    std::uint32_t seed{0};
+    std::string logFile;
+    std::string options;  //!< Effective config.ini.
+};
+
+}  // namespace salma::slam

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <mrpt/config/CConfigFileMemory.h>
+#include <salma/config/TStrictOptions.h>
+
+#include <stdexcept>
+
+namespace salma::config {
+namespace {
+
+struct TToyOptions : public TStrictOptions<TToyOptions> {
+    double low{0.1};
+    double high{2};
+    double angle{0.7};
+    bool on{true};
+
+    void visit(COptionVisitor& v) {
+        v.number("low_m", low, atLeast(0), "lower end");
+        v.number("high_m", high, atLeast(0), "upper end");
+        v.degrees("angle_deg", angle, between(0, 90), "slope");
+        v.flag("on", on, "used at all");
+    }
+    void validate() const {
+        if (!(low < high)) throw std::invalid_argument("low_m must be below high_m");
+    }
+};
+
+TEST(TStrictOptions, StaysUntouchedWhenOneKeyIsInvalid) {
+    const mrpt::config::CConfigFileMemory file(std::string("[s]\nlow_m = 0.5\nhigh_m = -1\n"));
+    TToyOptions options;
+    EXPECT_THROW(options.loadFromConfigFile(file, "s"), std::invalid_argument);
+    EXPECT_EQ(options.low, 0.1);
+}
+
+TEST(TStrictOptions, StaysUntouchedWhenKeysContradictEachOther) {
+    const mrpt::config::CConfigFileMemory file(std::string("[s]\nlow_m = 3\n"));
+    TToyOptions options;
+    EXPECT_THROW(options.loadFromConfigFile(file, "s"), std::invalid_argument);
+    EXPECT_EQ(options.low, 0.1);
+}
+
+TEST(TStrictOptions, ReadsBackWhatItWrites) {
+    TToyOptions written;
+    written.low = 1.0 / 3;
+    written.on = false;
+    const mrpt::config::CConfigFileMemory file(written.asIni("s"));
+    TToyOptions read;
+    read.loadFromConfigFile(file, "s");
+    EXPECT_NEAR(read.low, 1.0 / 3, 1e-12);
+    EXPECT_NEAR(read.angle, written.angle, 1e-12);
+    EXPECT_FALSE(read.on);
+    EXPECT_EQ(read.asIni("s"), written.asIni("s"));
+}
+
+}  // namespace
+}  // namespace salma::config
