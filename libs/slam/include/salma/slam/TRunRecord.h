@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -69,6 +70,8 @@ struct TMapLandmark {
     std::size_t sightings{0};
     double firstTime{0}, lastTime{0};                   //!< [s since 1970]
     std::shared_ptr<const observations::TPatch> patch;  //!< Null for a corner.
+    /// Direction of the wall's normal towards the robot at creation [rad], world; NaN for none.
+    double wallAngle{std::numeric_limits<double>::quiet_NaN()};
 };
 
 /// All that a run leaves; the files of a run folder are written from it alone.
