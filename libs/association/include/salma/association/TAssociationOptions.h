@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <salma/config/TStrictOptions.h>
+
+namespace salma::association {
+
+enum class EMethod { nn, scnn, saliency };
+
+/// Section [association] of config.ini.
+struct TAssociationOptions : public config::TStrictOptions<TAssociationOptions> {
+    EMethod method{EMethod::saliency};
+    double gateQuantile{0.99};   //!< Probability that a true pairing passes the individual gate.
+    double jointQuantile{0.99};  //!< The same for all pairings of a step together.
+    double newDistance2{30};  //!< A new landmark is at least so far from all others, squared [-].
+    double wallAngleQuantile{0.99};  //!< Probability that the right wall passes.
+    double acceptLogLr{0};           //!< Appearance proves a candidate from here on.
+    double forbidLogLr{-2};          //!< Appearance excludes a candidate up to here.
+    double margin{3};                //!< Least lead over the second-best candidate [nats].
+    double otherLogDensity{-1};      //!< Log density of landmarks not in the map [1/(m rad)].
+
+    void visit(config::COptionVisitor& v);
+    /// \throw std::invalid_argument
+    void validate() const;
+};
+
+}  // namespace salma::association

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/poses/CPosePDFGaussian.h>
+#include <salma/config/TStrictOptions.h>
+
+namespace salma::slam {
+
+/// Section [odometry] of config.ini: standard deviations after one metre and after one radian.
+struct TOdometryOptions : public config::TStrictOptions<TOdometryOptions> {
+    double alongPerMetre{0.05};     //!< In the direction of travel, after one metre [m].
+    double acrossPerMetre{0.02};    //!< Sideways, after one metre [m].
+    double headingPerMetre{0.021};  //!< After one metre [rad].
+    double headingPerRadian{0.03};  //!< After one radian of turning [rad].
+    double minPosition{1e-4};       //!< Added in each step in which the robot moves [m].
+    double minHeading{1e-4};        //!< Added in each step in which the robot moves [rad].
+
+    void visit(config::COptionVisitor& v);
+};
+
+/** Covariance of a motion increment for logs that state none.
+ *
+ * Errors are a random walk: variances, not deviations, grow with distance and angle, so that the
+ * drift over a path does not depend on how many steps it is cut into (Thrun's sigma = alpha * d
+ * shrinks when steps get shorter). A robot at rest gets no error at all. Source: own. */
+class COdometryNoise {
+ public:
+    explicit COdometryNoise(const TOdometryOptions& options = {});
+
+    /// \param motion T_r(k-1)_r(k). \return It with its covariance in the frame r(k-1) [m, rad].
+    mrpt::poses::CPosePDFGaussian increment(const mrpt::poses::CPose2D& motion) const;
+
+ private:
+    TOdometryOptions m_options;
+};
+
+}  // namespace salma::slam

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/obs/CObservationBearingRange.h>
+#include <salma/association/TMeasurement.h>
+#include <salma/config/TStrictOptions.h>
+
+#include <vector>
+
+namespace salma::slam {
+
+/// Section [range_bearing] of config.ini: noise of range-bearing records that state none.
+struct TRangeBearingOptions : public config::TStrictOptions<TRangeBearingOptions> {
+    double sigmaRange{0.1};        //!< [m]
+    double sigmaBearing{0.00873};  //!< [rad]
+
+    void visit(config::COptionVisitor& v);
+};
+
+/** Landmarks that a range-bearing sensor saw, in the robot frame, with the record's noise and
+ * identities. They have no appearance: kind corner, not convex.
+ * \throw std::invalid_argument naming the sensor if a landmark has a pitch, or is not finite. */
+std::vector<association::TMeasurement> measurementsOf(
+    const mrpt::obs::CObservationBearingRange& record, const TRangeBearingOptions& options = {});
+
+}  // namespace salma::slam
