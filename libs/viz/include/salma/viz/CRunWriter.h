@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <salma/slam/TRunRecord.h>
+#include <salma/viz/TTrajectory.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace salma::viz {
+
+/// What a run left, and the true path where it is known.
+struct TReportInput {
+    const slam::TRunRecord& record;    //!< Must outlive this object.
+    std::optional<TTrajectory> truth;  //!< In any frame: it is aligned with the estimate.
+};
+
+/// How often each decision was taken; `pairings` counts them in the order of slam::EDecision.
+struct TDecisionCounts {
+    std::size_t paired{0}, created{0}, deferred{0}, clutter{0}, relocated{0}, provisional{0};
+};
+TDecisionCounts countDecisions(const slam::TRunRecord& record);
+
+/// Names as the files hold them: "paired", "new", ...; "salient", "corner".
+std::string nameOf(slam::EDecision decision);
+std::string nameOf(association::ELandmarkKind kind);
+
+/// Columns of the files, in their order.
+const std::vector<std::string>& landmarkColumns();
+const std::vector<std::string>& associationColumns();
+const std::vector<std::string>& candidateColumns();
+const std::vector<std::string>& innovationColumns();
+
+/** Writes the files of a run folder.
+ *
+ * Numbers have 9 significant digits, stamps 6 decimals; NaN and "none" are empty cells. Every write
+ * is checked. The folder must exist; what is in it under the same name is overwritten.
+ * \throw std::runtime_error naming the file that could not be written. */
+class CRunWriter {
+ public:
+    explicit CRunWriter(std::filesystem::path folder);
+
+    /// trajectory.tum, landmarks.csv, associations.csv, candidates.csv, innovations.csv,
+    /// summary.json.
+    void writeTables(const slam::TRunRecord& record) const;
+
+    /** The tables, map.png, innovations.png, scene.3Dscene and report.html.
+     * \throw std::runtime_error also if gnuplot is missing or fails. */
+    void writeAll(const TReportInput& input) const;
+
+ private:
+    std::filesystem::path m_folder;
+};
+
+}  // namespace salma::viz
