@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <salma/config/TStrictOptions.h>
+#include <salma/observations/TSalientRegion.h>
+
+#include <memory>
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+namespace salma::saliency {
+
+struct TScaleTables;
+
+enum class TLogBase { Natural, Two };
+
+/// Section [saliency].
+struct TScaleSaliencyOptions : public config::TStrictOptions<TScaleSaliencyOptions> {
+    int scaleMin{3};                       //!< Smallest radius [px]; never the scale of a peak.
+    int scaleMax{33};                      //!< Largest radius [px]; never the scale of a peak.
+    int bins{16};                          //!< Cells of the histogram of the grey level.
+    TLogBase logBase{TLogBase::Natural};   //!< Unit of the entropy: nat or bit.
+    bool smooth{true};                     //!< Smooth W over three scales, in place.
+    bool stretch{false};                   //!< Stretch the picture's greys to 0..255 first.
+    int threads{1};                        //!< Threads; the result does not depend on it.
+
+    void visit(config::COptionVisitor& v);
+    /// \throw std::invalid_argument if there is no scale between the smallest and the largest.
+    void validate() const;
+};
+
+/// Instruction sets of the fast path; all give the same numbers.
+enum class TSimd { Baseline, AVX2, AVX512 };
+
+/// The widest instruction set that both this program and this processor know.
+TSimd bestSimd();
+
+/** Scale saliency of a grey picture: places and radii whose grey levels are most unpredictable.
+ *
+ * With p(s) the histogram of the disc of radius s about a pixel, H(s) its entropy, and
+ * W(s) = s^2/(2s-1) sum |p(s) - p(s-1)| (smoothed), each scale with H(s-1) < H(s) > H(s+1) is a
+ * peak of saliency Y = H W. A peak needs a margin of more than 1e-11 over both neighbours, so that
+ * equal entropies are not split by rounding.
+ * Source: T. Kadir and M. Brady, "Saliency, scale and image description", IJCV 45(2), 2001. */
+class CScaleSaliency {
+ public:
+    /** \param simd Instruction set, for tests; one the processor lacks is replaced by the best it
+     * has. \throw std::invalid_argument */
+    explicit CScaleSaliency(const TScaleSaliencyOptions& options = {}, TSimd simd = bestSimd());
+
+    /** All entropy peaks whose disc of the largest scale fits into the picture, by row, column,
+     * scale.
+     * \param grey Picture [rows x cols], CV_8UC1; smaller than a disc gives an empty result.
+     * \param yMin Only peaks with Y >= yMin: exactly those of a call without it, found sooner.
+     * \throw std::invalid_argument for another type of picture, or yMin not a number. */
+    std::vector<observations::TSalientRegion> detect(const cv::Mat& grey, double yMin = 0) const;
+
+    const TScaleSaliencyOptions& options() const { return m_options; }
+
+ private:
+    cv::Mat quantise(const cv::Mat& grey) const;
+
+    TScaleSaliencyOptions m_options;
+    TSimd m_simd;
+    std::shared_ptr<const TScaleTables> m_tables;
+};
+
+}  // namespace salma::saliency
