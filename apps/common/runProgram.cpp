@@ -23,12 +23,10 @@ int runProgram(CLI::App& app,
     app.get_formatter()->column_width(34);
     try {
         app.parse(argc, argv);
-    } catch (const CLI::ParseError& e) {
-        return app.exit(e) == 0 ? 0 : 2;
-    }
-    try {
         body();
         return 0;
+    } catch (const CLI::ParseError& e) {
+        return app.exit(e) == 0 ? 0 : 2;
     } catch (const std::exception& e) {
         std::cerr << app.get_name() << ": " << firstLine(e.what()) << "\n";
         return 1;

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <salma/landmarks/CFrontEnd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "warpWall.h"
+
+namespace salma::landmarks {
+namespace {
+
+using appearance::CWallView;
+using appearance::TWallRectangle;
+using observations::TPatch;
+using observations::TSalientRegion;
+
+/// Fine enough to place a border within a centimetre; finer costs time and gains nothing.
+constexpr double kBorderPixelsPerMetre = 150;
+
+/// Smallest rectangle of whole pixels around the quad, within the picture.
+cv::Rect boundingBox(const std::array<mrpt::math::TPoint2D, 4>& quad, const cv::Size& picture) {
+    std::vector<cv::Point2f> corners;
+    for (const auto& p : quad)
+        corners.emplace_back(static_cast<float>(p.x), static_cast<float>(p.y));
+    return cv::boundingRect(corners) & cv::Rect({0, 0}, picture);
+}
+
+}  // namespace
+
+void TFrontEndOptions::visit(config::COptionVisitor& v) {
+    v.flag("join_by_mser", joinByMser, "regions inside one maximally stable region are one entity");
+    v.number("second_y_min", secondYMin, config::atLeast(0),
+             "saliency threshold of the second look, inside the entity [nat]");
+    v.integer("min_keypoints", minKeypoints, config::between(0, 10000),
+              "patches with fewer keypoints are refused");
+    v.number("min_size_m", minSize, config::moreThan(0), "smallest width and height of an entity");
+    v.number("max_size_m", maxSize, config::moreThan(0), "largest width and height of an entity");
+    v.number("max_skew_s", maxSkew, config::atLeast(0),
+             "longest gap between a picture and the scan it is joined with");
+    v.number("latency_camera_s", latencyCamera, config::between(-10, 10),
+             "pictures were taken this long before their stamp");
+}
+
+void TFrontEndOptions::validate() const {
+    if (!(minSize < maxSize)) throw std::invalid_argument("min_size_m must be below max_size_m");
+}
+
+CFrontEnd::CFrontEnd(const TSeeingOptions& options)
+    : m_options(options.frontEnd),
+      m_saliency(options.saliency),
+      m_clusterer(options.clustering),
+      m_stable(options.mser),
+      m_selector(options.selection),
+      m_border(options.border),
+      m_rectifier(options.rectification),
+      m_descriptor(options.descriptor) {
+    m_options.validate();
+}
+
+TFrontEndResult CFrontEnd::process(const TView& view) const {
+    if (view.grey.type() != CV_8UC1)
+        throw std::invalid_argument("front end: the picture is not 8-bit grey");
+    TFrontEndResult result;
+    std::vector<CWallView> walls;
+    for (const auto& line : view.walls) walls.emplace_back(view.camera, view.T_r_c, line);
+
+    const auto peaks = m_saliency.detect(view.grey, m_selector.options().yMin);
+    const auto regions = m_clusterer.cluster(peaks);
+    std::vector<std::vector<cv::Point>> stable;
+    if (m_options.joinByMser && regions.size() > 1)
+        for (auto& region : m_stable.detect(view.grey)) stable.push_back(std::move(region.pixels));
+
+    const TSelection selection = m_selector.select(regions, stable, walls);
+    if (regions.empty()) ++result.refused["picture without salient region"];
+    result.refused["region on no wall"] += selection.onNoWall;
+    result.refused["too few regions"] += selection.tooFewRegions;
+    result.refused["outnumbered"] += selection.outnumbered;
+    for (const auto& entity : selection.entities)
+        if (auto patch = landmarkOf(entity, walls[entity.wall], view, result))
+            result.landmarks.push_back(std::move(*patch));
+    return result;
+}
+
+std::optional<TPatch> CFrontEnd::landmarkOf(const TEntity& entity,
+                                            const CWallView& wall,
+                                            const TView& view,
+                                            TFrontEndResult& result) const {
+    const auto refuse = [&](const std::string& reason) {
+        ++result.refused[reason];
+        return std::nullopt;
+    };
+    const auto border = borderOf(entity, wall, view.grey);
+    if (!border) return refuse("no border");
+    const double width = border->u1 - border->u0, height = border->v1 - border->v0;
+    if (!(std::min(width, height) >= m_options.minSize)) return refuse("too small");
+    if (!(std::max(width, height) <= m_options.maxSize)) return refuse("too large");
+    auto rectified = m_rectifier.rectify(view.grey, wall, *border);
+    if (!rectified.patch) return refuse(appearance::asString(rectified.refusal));
+    TPatch& patch = *rectified.patch;
+    patch.keypoints = m_descriptor.describe(patch);
+    if (patch.keypoints.size() < static_cast<std::size_t>(m_options.minKeypoints))
+        return refuse("too few keypoints");
+    patch.regions = secondLook(patch, view.grey);
+    return std::move(rectified.patch);
+}
+
+std::optional<TWallRectangle> CFrontEnd::borderOf(const TEntity& entity,
+                                                  const CWallView& wall,
+                                                  const cv::Mat& grey) const {
+    const double reach = m_border.options().grow + 0.05;
+    const TWallRectangle area{entity.box.u0 - reach, entity.box.v0 - reach, entity.box.u1 + reach,
+                              entity.box.v1 + reach};
+    // A box of many metres comes from regions whose rays graze the wall.
+    if (!(area.u1 - area.u0 <= 2 * m_options.maxSize + 2 * reach)) return std::nullopt;
+    const TWallPicture picture = warpWall(grey, wall, area, kBorderPixelsPerMetre);
+    const auto toColumn = [&](double u) { return (u - area.u0) * kBorderPixelsPerMetre; };
+    const auto toRow = [&](double v) { return (area.v1 - v) * kBorderPixelsPerMetre; };
+    const cv::Rect2d start(cv::Point2d(toColumn(entity.box.u0), toRow(entity.box.v1)),
+                           cv::Point2d(toColumn(entity.box.u1), toRow(entity.box.v0)));
+    const auto found = m_border.find(picture.grey, picture.valid, start, kBorderPixelsPerMetre);
+    if (!found) return std::nullopt;
+    return TWallRectangle{area.u0 + found->x / kBorderPixelsPerMetre,
+                          area.v1 - found->br().y / kBorderPixelsPerMetre,
+                          area.u0 + found->br().x / kBorderPixelsPerMetre,
+                          area.v1 - found->y / kBorderPixelsPerMetre};
+}
+
+std::vector<TSalientRegion> CFrontEnd::secondLook(const TPatch& patch, const cv::Mat& grey) const {
+    const cv::Rect box = boundingBox(patch.quad, grey.size());
+    // The detector has no centres within its largest scale of the border.
+    const int margin = m_saliency.options().scaleMax;
+    const cv::Rect wide =
+        cv::Rect(box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin) &
+        cv::Rect({0, 0}, grey.size());
+    auto regions = m_clusterer.cluster(m_saliency.detect(grey(wide).clone(), m_options.secondYMin));
+    for (auto& region : regions) {
+        region.x += wide.x;
+        region.y += wide.y;
+    }
+    regions.erase(std::remove_if(regions.begin(), regions.end(),
+                                 [&](const TSalientRegion& r) {
+                                     return !box.contains(cv::Point2d(r.x, r.y));
+                                 }),
+                  regions.end());
+    return regions;
+}
+
+}  // namespace salma::landmarks
