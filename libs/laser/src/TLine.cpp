@@ -22,8 +22,8 @@ TLine transformed(const TLine& line, const mrpt::poses::CPose2D& T_a_b) {
     out.rho = rho;
     out.alpha = mrpt::math::wrapToPi(alpha);
     out.covariance = J * line.covariance * J.transpose();
-    out.from = T_a_b.composePoint(line.from);
-    out.to = T_a_b.composePoint(line.to);
+    T_a_b.composePoint(line.from.x, line.from.y, out.from.x, out.from.y);
+    T_a_b.composePoint(line.to.x, line.to.y, out.to.x, out.to.y);
     return out;
 }
 

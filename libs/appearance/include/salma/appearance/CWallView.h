@@ -75,6 +75,8 @@ class CWallView {
     Eigen::Vector3d m_p0, m_eu, m_ev;  //!< Of the wall, robot frame.
     Eigen::Matrix3d m_wallToRay;       //!< (u, v, 1) to camera coordinates.
     std::pair<double, double> m_extent{0, 0};
+    bool m_distorts{false};
+    bool m_inFront{false};   //!< The camera is on the robot's side of the wall.
     double m_maxRadius2{0};  //!< The lens model holds up to here [-].
 };
 
