@@ -17,7 +17,7 @@ struct TReportInput {
     std::optional<TTrajectory> truth;  //!< In any frame: it is aligned with the estimate.
 };
 
-/// How often each decision was taken; `pairings` counts them in the order of slam::EDecision.
+/// How often each decision was taken.
 struct TDecisionCounts {
     std::size_t paired{0}, created{0}, deferred{0}, clutter{0}, relocated{0}, provisional{0};
 };
@@ -28,10 +28,10 @@ std::string nameOf(slam::EDecision decision);
 std::string nameOf(association::ELandmarkKind kind);
 
 /// Columns of the files, in their order.
-const std::vector<std::string>& landmarkColumns();
-const std::vector<std::string>& associationColumns();
-const std::vector<std::string>& candidateColumns();
-const std::vector<std::string>& innovationColumns();
+std::vector<std::string> landmarkColumns();
+std::vector<std::string> associationColumns();
+std::vector<std::string> candidateColumns();
+std::vector<std::string> innovationColumns();
 
 /** Writes the files of a run folder.
  *

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <salma/viz/CPlots.h>
+#include <salma/viz/CReport.h>
+#include <salma/viz/CRunWriter.h>
+#include <salma/viz/CSceneBuilder.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <utility>
+
+#include "CTextFile.h"
+
+namespace salma::viz {
+namespace {
+
+using association::ELandmarkKind;
+using slam::EDecision;
+using slam::TRunRecord;
+using Cells = std::vector<std::string>;
+
+std::string joined(const Cells& cells) {
+    std::string line;
+    for (const auto& cell : cells) line += (line.empty() ? "" : ",") + cell;
+    return line + "\n";
+}
+
+/// Writes a table of `count` rows; `cellsOf(i)` is row i.
+template <class CELLS_OF>
+void writeCsv(const std::filesystem::path& file,
+              const Cells& columns,
+              std::size_t count,
+              const CELLS_OF& cellsOf) {
+    CTextFile text(file.string());
+    text.out() << joined(columns);
+    for (std::size_t i = 0; i < count; ++i) text.out() << joined(cellsOf(i));
+    text.close();
+}
+
+double degrees(double radians) { return radians * 180 / M_PI; }
+
+Cells cellsOf(const slam::TMapLandmark& l) {
+    return {std::to_string(l.id),
+            nameOf(l.kind),
+            number(l.mean.x),
+            number(l.mean.y),
+            number(std::sqrt(l.covariance(0, 0))),
+            number(std::sqrt(l.covariance(1, 1))),
+            std::to_string(l.sightings),
+            stamp(l.firstTime),
+            stamp(l.lastTime)};
+}
+
+Cells cellsOf(const slam::TAssociationRow& a) {
+    return {stamp(a.time),
+            std::to_string(a.observation),
+            nameOf(a.kind),
+            number(a.range),
+            number(degrees(a.bearing)),
+            number(a.u),
+            number(a.v),
+            nameOf(a.decision),
+            a.landmark < 0 ? "" : std::to_string(a.landmark),
+            number(a.distance2),
+            number(a.logRatio),
+            std::to_string(a.candidates)};
+}
+
+Cells cellsOf(const slam::TCandidateRow& c) {
+    return {stamp(c.time),
+            std::to_string(c.observation),
+            std::to_string(c.landmark),
+            number(c.distance2),
+            number(c.logRatio),
+            c.chosen ? "1" : "0"};
+}
+
+Cells cellsOf(const slam::TInnovationRow& i) {
+    return {stamp(i.time), i.component, number(i.value), number(i.sigma)};
+}
+
+void writeTrajectory(const TRunRecord& record, const std::string& file) {
+    TTrajectory trajectory;
+    trajectory.reserve(record.trajectory.size());
+    for (const auto& row : record.trajectory) trajectory.push_back({row.time, row.pose});
+    writeTum(trajectory, file);
+}
+
+void writeSummary(const TRunRecord& record, const std::string& file) {
+    const TDecisionCounts counts = countDecisions(record);
+    nlohmann::ordered_json json;
+    json["steps"] = record.trajectory.size();
+    json["landmarks"] = record.landmarks.size();
+    json["paired"] = counts.paired;
+    json["new"] = counts.created;
+    json["deferred"] = counts.deferred;
+    json["clutter"] = counts.clutter;
+    json["relocated"] = counts.relocated;
+    json["pictures"] = record.pictures;
+    json["pictures_without_landmark"] = record.picturesWithoutLandmark;
+    json["seconds"] = record.seconds;
+    json["seed"] = record.seed;
+    json["options"] = record.options;
+    json["notices"] = record.notices;
+    CTextFile text(file);  // file names in notices need not be UTF-8
+    text.out() << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
+    text.close();
+}
+
+}  // namespace
+
+TDecisionCounts countDecisions(const TRunRecord& record) {
+    TDecisionCounts counts;
+    for (const auto& row : record.associations) {
+        switch (row.decision) {
+            case EDecision::paired:
+                ++counts.paired;
+                break;
+            case EDecision::created:
+                ++counts.created;
+                break;
+            case EDecision::deferred:
+                ++counts.deferred;
+                break;
+            case EDecision::clutter:
+                ++counts.clutter;
+                break;
+            case EDecision::relocated:
+                ++counts.relocated;
+                break;
+            case EDecision::provisional:
+                ++counts.provisional;
+                break;
+        }
+    }
+    return counts;
+}
+
+std::string nameOf(EDecision decision) {
+    switch (decision) {
+        case EDecision::paired:
+            return "paired";
+        case EDecision::created:
+            return "new";
+        case EDecision::deferred:
+            return "deferred";
+        case EDecision::clutter:
+            return "clutter";
+        case EDecision::relocated:
+            return "relocated";
+        case EDecision::provisional:
+            return "provisional";
+    }
+    throw std::invalid_argument("a decision of unknown kind");
+}
+
+std::string nameOf(ELandmarkKind kind) {
+    return kind == ELandmarkKind::salient ? "salient" : "corner";
+}
+
+std::vector<std::string> landmarkColumns() {
+    return {"id",        "kind",      "x_m",       "y_m",     "sigma_x_m",
+            "sigma_y_m", "sightings", "first_t_s", "last_t_s"};
+}
+
+std::vector<std::string> associationColumns() {
+    return {"t_s",  "observation", "kind",        "range_m", "bearing_deg", "u_px",
+            "v_px", "decision",    "landmark_id", "d2",      "log_lr",      "n_candidates"};
+}
+
+std::vector<std::string> candidateColumns() {
+    return {"t_s", "observation", "landmark_id", "d2", "log_lr", "chosen"};
+}
+
+std::vector<std::string> innovationColumns() { return {"t_s", "component", "value", "sigma"}; }
+
+CRunWriter::CRunWriter(std::filesystem::path folder) : m_folder(std::move(folder)) {}
+
+void CRunWriter::writeTables(const TRunRecord& r) const {
+    writeTrajectory(r, (m_folder / "trajectory.tum").string());
+    writeCsv(m_folder / "landmarks.csv", landmarkColumns(), r.landmarks.size(),
+             [&](std::size_t i) { return cellsOf(r.landmarks[i]); });
+    writeCsv(m_folder / "associations.csv", associationColumns(), r.associations.size(),
+             [&](std::size_t i) { return cellsOf(r.associations[i]); });
+    writeCsv(m_folder / "candidates.csv", candidateColumns(), r.candidates.size(),
+             [&](std::size_t i) { return cellsOf(r.candidates[i]); });
+    writeCsv(m_folder / "innovations.csv", innovationColumns(), r.innovations.size(),
+             [&](std::size_t i) { return cellsOf(r.innovations[i]); });
+    writeSummary(r, (m_folder / "summary.json").string());
+}
+
+void CRunWriter::writeAll(const TReportInput& input) const {
+    writeTables(input.record);
+    const std::string map = (m_folder / "map.png").string();
+    const std::string innovations = (m_folder / "innovations.png").string();
+    plotMap(input, map);
+    plotInnovations(input.record, innovations);
+    const std::string scene = (m_folder / "scene.3Dscene").string();
+    if (!CSceneBuilder(input.record).build()->saveToFile(scene))
+        throw std::runtime_error(scene + ": cannot be written");
+    CTextFile report((m_folder / "report.html").string());
+    report.out() << CReport(input).html({map, innovations});
+    report.close();
+}
+
+}  // namespace salma::viz
