@@ -129,13 +129,15 @@ void plotInnovations(const TRunRecord& record, const std::string& file) {
     CGnuplot plot(1600, 1000);
     const double start = record.trajectory.empty() ? 0 : record.trajectory.front().time;
     const double end = record.trajectory.empty() ? 1 : record.trajectory.back().time;
-    plot.script() << "set datafile missing NaN\nset multiplot layout 2,1\n"
+    plot.script() << "set datafile missing NaN\nset multiplot layout 2,1 "
+                  << "margins screen 0.07,0.98,0.13,0.95 spacing screen 0.09\n"
                   << "set xrange [0:" << number(std::max(1e-3, end - start)) << "]\n"
-                  << "set lmargin at screen 0.07\nset rmargin at screen 0.98\n"
                   << "set grid lc rgb '#e6e6e6' lt 1 lw 1\nset border lw 1.2 lc rgb '#606060'\n"
-                  << "set xzeroaxis lt 1 lw 1 lc rgb '#808080'\nset key outside bottom center "
-                  << "horizontal samplen 2\nset xlabel 'time since the start [s]' offset 0,0.4\n";
+                  << "set tics textcolor rgb '#303030'\n"
+                  << "set xzeroaxis lt 1 lw 1 lc rgb '#808080'\nunset key\n";
     drawPanel(plot, record, {"range_m", "Range", "m"}, start);
+    plot.script() << "set xlabel 'time since the start [s]'\nset key at screen 0.52,0.035 center "
+                  << "horizontal Left reverse samplen 2 width 2\n";
     drawPanel(plot, record, {"bearing_deg", "Bearing", "deg"}, start);
     plot.script() << "unset multiplot\n";
     plot.run(file);

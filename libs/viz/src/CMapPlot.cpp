@@ -45,7 +45,7 @@ TEllipse ellipseOf(const TTrajectoryRow& row) {
     return ellipseOf(Eigen::Matrix2d(row.covariance.topLeftCorner<2, 2>()));
 }
 
-/// 1, 2, 5, ... up to 20: what makes the 90 % quantile of the robot's ellipses about 1.5 % of the
+/// 1, 2, 5, ... up to 20: what makes the 90 % quantile of the robot's ellipses at least 1 % of the
 /// map wide.
 double enlargement(const TRunRecord& record, const TPlotFrame& frame) {
     std::vector<double> widths;
@@ -165,7 +165,7 @@ class CMapDrawing {
 
     /// An ellipse wherever the robot has moved on by a fortieth of the map since the last.
     void robotEllipses(ESight sight, const std::string& colour, const std::string& title) {
-        const double spacing = m_frame.width() / 60;
+        const double spacing = m_frame.width() / 40;
         std::string lines;
         const TTrajectoryRow* last = nullptr;
         for (const auto& row : m_record.trajectory) {
@@ -184,8 +184,8 @@ class CMapDrawing {
             first += asLine(l.firstMean, ellipseOf(l.firstCovariance));
             if (l.sightings > 1) later += asLine(l.mean, ellipseOf(l.covariance));
         }
-        ellipses("first", first, "lw 1.3 dt (6,3) lc rgb '#1f5fd0' title 'landmark, first seen'");
-        ellipses("later", later, "lw 1.6 dt (6,3) lc rgb '#d62728' title 'landmark, seen again'");
+        ellipses("first", first, "lw 1.1 lc rgb '#1f5fd0' title 'landmark, first seen'");
+        ellipses("later", later, "lw 1.1 lc rgb '#d62728' title 'landmark, seen again'");
     }
 
     void ellipses(const std::string& name, const std::string& lines, const std::string& style) {
@@ -236,6 +236,8 @@ class CMapDrawing {
             << "set grid lc rgb '#ececec' lt 1 lw 1\nset border lw 1.2 lc rgb '#606060'\n"
             << "set tics textcolor rgb '#303030'\n"
             << "set key at screen 0.5,0.098 center top horizontal maxrows 3 samplen 2.5 width 1 "
+               "Left "
+               "reverse "
                "spacing 1.25 textcolor rgb '#202020' font ',13'\n";
         out << "set title '" << title() << "' font ',17' offset 0,-0.2\n";
     }

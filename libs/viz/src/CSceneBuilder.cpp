@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "TPlotFrame.h"
 
@@ -57,7 +58,9 @@ CRenderizable::Ptr texturedPatch(const slam::TMapLandmark& landmark) {
     const auto halfWidth = static_cast<float>(patch.width / 2);
     const auto halfHeight = static_cast<float>(patch.height / 2);
     plane->setPlaneCorners(-halfWidth, halfWidth, -halfHeight, halfHeight);
-    plane->assignImage(mrpt::img::CImage(patch.picture, mrpt::img::DEEP_COPY));
+    mrpt::img::CImage picture(patch.picture, mrpt::img::DEEP_COPY);
+    picture.flipVertical();  // MRPT puts the first row at the smallest y
+    plane->assignImage(std::move(picture));
     plane->setPose(patchPose(landmark));
     return plane;
 }
@@ -95,10 +98,11 @@ mrpt::opengl::COpenGLScene::Ptr CSceneBuilder::build() const {
     scene->insert(path());
     for (const auto& l : m_record.landmarks) scene->insert(landmark(l));
     const TPlotFrame frame = frameOf(m_record);
+    scene->getViewport()->setCustomBackgroundColor({0.93F, 0.93F, 0.93F});
     auto& camera = scene->getViewport()->getCamera();
     camera.setPointingAt(static_cast<float>((frame.min.x + frame.max.x) / 2),
                          static_cast<float>((frame.min.y + frame.max.y) / 2), 0);
-    camera.setZoomDistance(static_cast<float>(1.2 * frame.width()));
+    camera.setZoomDistance(static_cast<float>(1.7 * frame.width()));
     camera.setAzimuthDegrees(-70);
     camera.setElevationDegrees(45);
     return scene;
