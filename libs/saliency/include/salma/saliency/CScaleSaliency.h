@@ -16,13 +16,13 @@ enum class TLogBase { Natural, Two };
 
 /// Section [saliency].
 struct TScaleSaliencyOptions : public config::TStrictOptions<TScaleSaliencyOptions> {
-    int scaleMin{3};                       //!< Smallest radius [px]; never the scale of a peak.
-    int scaleMax{33};                      //!< Largest radius [px]; never the scale of a peak.
-    int bins{16};                          //!< Cells of the histogram of the grey level.
-    TLogBase logBase{TLogBase::Natural};   //!< Unit of the entropy: nat or bit.
-    bool smooth{true};                     //!< Smooth W over three scales, in place.
-    bool stretch{false};                   //!< Stretch the picture's greys to 0..255 first.
-    int threads{1};                        //!< Threads; the result does not depend on it.
+    int scaleMin{3};                      //!< Smallest radius [px]; never the scale of a peak.
+    int scaleMax{33};                     //!< Largest radius [px]; never the scale of a peak.
+    int bins{16};                         //!< Cells of the histogram of the grey level.
+    TLogBase logBase{TLogBase::Natural};  //!< Unit of the entropy: nat or bit.
+    bool smooth{true};                    //!< Smooth W over three scales, in place.
+    bool stretch{false};                  //!< Stretch the picture's greys to 0..255 first.
+    int threads{1};                       //!< Threads; the result does not depend on it.
 
     void visit(config::COptionVisitor& v);
     /// \throw std::invalid_argument if there is no scale between the smallest and the largest.

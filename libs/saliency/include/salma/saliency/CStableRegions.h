@@ -11,8 +11,8 @@ namespace salma::saliency {
 
 /// Section [mser].
 struct TStableRegionsOptions : public config::TStrictOptions<TStableRegionsOptions> {
-    int delta{5};                  //!< Step of the threshold over which a region's area is compared.
-    int minArea{60};               //!< Smallest area [px].
+    int delta{5};     //!< Step of the threshold over which a region's area is compared.
+    int minArea{60};  //!< Smallest area [px].
     double maxAreaFraction{0.25};  //!< Largest area, as a fraction of the picture.
     double maxVariation{0.25};     //!< Largest relative change of area over `delta`.
     double minDiversity{0.2};      //!< Smallest relative difference of area to an enclosing region.

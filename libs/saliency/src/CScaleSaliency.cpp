@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <salma/saliency/CScaleSaliency.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <functional>
+#include <future>
+#include <opencv2/core.hpp>
+#include <stdexcept>
+#include <string>
+
+#include "CSaliencyTile.h"
+
+namespace salma::saliency {
+
+using TRegions = std::vector<observations::TSalientRegion>;
+
+namespace {
+
+/// A tile's centres and the lists for their peaks.
+struct TJob {
+    cv::Rect centres;
+    std::vector<TRegions> rows;
+};
+
+/// The tiles of a picture, row by row of tiles.
+std::vector<TJob> cut(const cv::Rect& centres) {
+    std::vector<TJob> jobs;
+    for (int y = centres.y; y < centres.br().y; y += kTileRows)
+        for (int x = centres.x; x < centres.br().x; x += kLanes) {
+            const cv::Rect tile = cv::Rect(x, y, kLanes, kTileRows) & centres;
+            jobs.push_back({tile, std::vector<TRegions>(static_cast<std::size_t>(tile.height))});
+        }
+    return jobs;
+}
+
+TRegions joinRows(const std::vector<TJob>& jobs) {
+    std::size_t count = 0;
+    for (const auto& job : jobs)
+        for (const auto& row : job.rows) count += row.size();
+    TRegions all;
+    all.reserve(count);
+    for (std::size_t first = 0, last = 0; first < jobs.size(); first = last) {
+        const cv::Rect& tile = jobs[first].centres;
+        while (last < jobs.size() && jobs[last].centres.y == tile.y) ++last;
+        for (std::size_t r = 0; r < static_cast<std::size_t>(tile.height); ++r)
+            for (std::size_t i = first; i < last; ++i)
+                all.insert(all.end(), jobs[i].rows[r].begin(), jobs[i].rows[r].end());
+    }
+    return all;
+}
+
+template <class COUNT>
+void work(const TScaleTables& tables,
+          const cv::Mat& bins,
+          double yMin,
+          const std::function<TJob*()>& next,
+          TSimd simd) {
+    CSaliencyTile<COUNT> tile(tables, kernelsFor<COUNT>(simd));
+    for (TJob* job = next(); job != nullptr; job = next())
+        tile.detect(bins, job->centres, yMin, job->rows.data());
+}
+
+std::string typeName(const cv::Mat& picture) {
+    static constexpr const char* kDepths[] = {"8U", "8S", "16U", "16S", "32S", "32F", "64F", "16F"};
+    return std::string("CV_") + kDepths[picture.depth()] + "C" + std::to_string(picture.channels());
+}
+
+}  // namespace
+
+void TScaleSaliencyOptions::visit(config::COptionVisitor& v) {
+    v.integer("scale_min_px", scaleMin, config::between(1, 126), "smallest radius of a disc");
+    v.integer("scale_max_px", scaleMax, config::between(3, 128), "largest radius of a disc");
+    v.integer("bins", bins, config::between(2, 256), "cells of the histogram of the grey level");
+    v.choice("log_base", logBase, {{"natural", TLogBase::Natural}, {"2", TLogBase::Two}},
+             "logarithm of the entropy");
+    v.flag("smooth", smooth, "smooth the inter-scale saliency over three scales");
+    v.flag("stretch", stretch, "stretch the grey levels of a picture to the full range first");
+    v.integer("threads", threads, config::between(1, 256),
+              "threads; they do not change the result");
+}
+
+void TScaleSaliencyOptions::validate() const {
+    if (scaleMax < scaleMin + 2)
+        throw std::invalid_argument(
+            "scale_max_px = " + std::to_string(scaleMax) +
+            " must be at least scale_min_px + 2 = " + std::to_string(scaleMin + 2));
+}
+
+CScaleSaliency::CScaleSaliency(const TScaleSaliencyOptions& options, TSimd simd)
+    : m_options(options), m_simd(simd) {
+    m_options.validate();
+    m_tables = std::make_shared<const TScaleTables>(m_options);
+}
+
+TRegions CScaleSaliency::detect(const cv::Mat& grey, double yMin) const {
+    if (grey.type() != CV_8UC1)
+        throw std::invalid_argument(
+            "scale saliency needs a grey picture of 8 bits (CV_8UC1), got " + typeName(grey));
+    if (std::isnan(yMin)) throw std::invalid_argument("scale saliency: y_min is not a number");
+    const int reach = m_options.scaleMax;
+    if (std::min(grey.rows, grey.cols) <= 2 * reach) return {};
+    const cv::Mat bins = quantise(grey);
+    auto jobs = cut({reach, reach, grey.cols - 2 * reach, grey.rows - 2 * reach});
+    std::atomic<std::size_t> taken{0};
+    const std::function<TJob*()> next = [&jobs, &taken] {
+        const std::size_t i = taken++;
+        return i < jobs.size() ? &jobs[i] : nullptr;
+    };
+    const auto worker = [&] {
+        const auto run = m_tables->fitsBytes() ? work<std::uint8_t> : work<std::uint16_t>;
+        run(*m_tables, bins, yMin, next, m_simd);
+    };
+    std::vector<std::future<void>> others;
+    for (int i = 1; i < m_options.threads && static_cast<std::size_t>(i) < jobs.size(); ++i)
+        others.push_back(std::async(std::launch::async, worker));
+    worker();
+    for (auto& other : others) other.get();
+    return joinRows(jobs);
+}
+
+cv::Mat CScaleSaliency::quantise(const cv::Mat& grey) const {
+    double low = 0;
+    double high = 255;
+    if (m_options.stretch) cv::minMaxLoc(grey, &low, &high);
+    const double range = std::max(high - low, 1.0);
+    cv::Mat lookUp(1, 256, CV_8UC1);
+    for (int g = 0; g < 256; ++g) {
+        const double cell = (g - low) * (m_options.bins - 1) / range;
+        lookUp.at<std::uint8_t>(g) = cv::saturate_cast<std::uint8_t>(std::lround(cell));
+    }
+    cv::Mat bins;
+    cv::LUT(grey, lookUp, bins);
+    return bins;
+}
+
+}  // namespace salma::saliency

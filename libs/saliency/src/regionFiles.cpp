@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <salma/saliency/regionFiles.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iomanip>
+#include <sstream>
+#include <stdexcept>
+
+namespace salma::saliency {
+namespace {
+
+constexpr auto kCsvHeader = "x_px,y_px,scale_px,entropy,interscale,saliency";
+
+std::ofstream create(const std::string& file) {
+    std::ofstream out(file, std::ios::binary);
+    if (!out) throw std::runtime_error(file + ": cannot be written");
+    return out;
+}
+
+void close(std::ofstream& out, const std::string& file) {
+    out.close();
+    if (!out) throw std::runtime_error(file + ": cannot be written to its end");
+}
+
+/// The lines of a file that are not blank, each cut into words, with their numbers for messages.
+class CLines {
+ public:
+    explicit CLines(const std::string& file) : m_file(file), m_in(file, std::ios::binary) {
+        if (!m_in) throw std::runtime_error(file + ": cannot be read");
+    }
+
+    /// False at the end of the file.
+    bool next() {
+        m_words.clear();
+        while (m_words.empty() && std::getline(m_in, m_text)) {
+            ++m_number;
+            std::istringstream words(m_text);
+            for (std::string word; words >> word;) m_words.push_back(word);
+        }
+        return !m_words.empty();
+    }
+
+    [[noreturn]] void fail(const std::string& problem) const {
+        throw std::runtime_error(m_file + ":" + std::to_string(m_number) + ": " + problem);
+    }
+
+    /// The finite numbers of this line, of which there must be `count`.
+    std::vector<double> numbers(std::size_t count) const {
+        std::vector<double> values;
+        for (const auto& word : m_words) {
+            char* end = nullptr;
+            values.push_back(std::strtod(word.c_str(), &end));
+            if (end != word.c_str() + word.size() || !std::isfinite(values.back()))
+                fail("'" + word.substr(0, 40) + "' is not a finite number");
+        }
+        if (values.size() != count)
+            fail("expected " + std::to_string(count) + " numbers, got " +
+                 std::to_string(values.size()));
+        return values;
+    }
+
+ private:
+    std::string m_file;
+    std::ifstream m_in;
+    std::string m_text;
+    std::vector<std::string> m_words;
+    std::size_t m_number{0};
+};
+
+std::size_t readCount(CLines& lines) {
+    if (!lines.next()) lines.fail("file ends before the descriptor length 1.0");
+    if (lines.numbers(1)[0] != 1) lines.fail("descriptor length is not 1.0");
+    if (!lines.next()) lines.fail("file ends before the number of regions");
+    const double count = lines.numbers(1)[0];
+    if (!(count >= 0 && count <= 1e9) || count != std::floor(count))
+        lines.fail("number of regions is not a whole number from 0 to 1e9");
+    return static_cast<std::size_t>(count);
+}
+
+}  // namespace
+
+void writeVgg(const std::string& file, const std::vector<TEllipse>& regions) {
+    auto out = create(file);
+    out << "1.0\n" << regions.size() << "\n" << std::setprecision(10);
+    for (const auto& e : regions)
+        out << e.u << " " << e.v << " " << e.a << " " << e.b << " " << e.c << "\n";
+    close(out, file);
+}
+
+std::vector<TEllipse> readVgg(const std::string& file) {
+    CLines lines(file);
+    const std::size_t count = readCount(lines);
+    std::vector<TEllipse> regions;
+    while (lines.next()) {
+        const auto n = lines.numbers(5);
+        if (!(n[2] > 0 && n[2] * n[4] - n[3] * n[3] > 0)) lines.fail("a, b, c are not an ellipse");
+        if (regions.size() == count)
+            lines.fail("more regions than the " + std::to_string(count) + " announced");
+        regions.push_back({n[0], n[1], n[2], n[3], n[4]});
+    }
+    if (regions.size() != count)
+        lines.fail("file ends after " + std::to_string(regions.size()) + " of " +
+                   std::to_string(count) + " regions");
+    return regions;
+}
+
+void writeRegionsCsv(const std::string& file,
+                     const std::vector<observations::TSalientRegion>& regions) {
+    auto out = create(file);
+    out << kCsvHeader << "\n" << std::setprecision(10);
+    for (const auto& r : regions)
+        out << r.x << "," << r.y << "," << r.s << "," << r.H << "," << r.W << "," << r.Y << "\n";
+    close(out, file);
+}
+
+void writeRegionsCsv(const std::string& file, const std::vector<TStableRegion>& regions) {
+    auto out = create(file);
+    out << kCsvHeader << ",area_px2,mean_grey,polarity\n" << std::setprecision(10);
+    for (const auto& r : regions)
+        out << r.ellipse.u << "," << r.ellipse.v << "," << r.ellipse.radius() << ",,,,"
+            << r.pixels.size() << "," << r.meanGrey << ","
+            << (r.polarity == TPolarity::DarkOnBright ? "dark" : "bright") << "\n";
+    close(out, file);
+}
+
+}  // namespace salma::saliency
