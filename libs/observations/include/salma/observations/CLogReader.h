@@ -15,7 +15,9 @@ namespace salma::observations {
 
 /// One instant at which something was observed.
 struct TLogStep {
-    double time{0};  //!< [s since 1970]
+    /// [s since 1970]; of a sensory frame the stamp of its first observation that has one, else the
+    /// time of the frame before.
+    double time{0};
     /// One observation in an observation-only log, a whole sensory frame in an action/SF log.
     std::vector<mrpt::obs::CObservation::Ptr> observations;
     mrpt::poses::CPose2D
@@ -41,6 +43,12 @@ struct TLog {
     CPoseHistory odometry;    //!< Empty for an action/SF log whose stamps do not strictly increase.
     CPanTiltHistory panTilt;  //!< Empty if the log has no pan/tilt records.
     std::map<std::string, std::size_t> counts;  //!< Observations by class name.
+    /// What could not be used, by reason: records without a stamp, odometry or heads beside the
+    /// first one (told by sensor label).
+    std::map<std::string, std::size_t> dropped;
+    /// Odometry and pan/tilt records that came later in the file than younger ones. They are put
+    /// in order of time.
+    std::size_t outOfOrder{0};
 };
 
 struct TLogReaderOptions {
@@ -48,8 +56,19 @@ struct TLogReaderOptions {
     bool mergeCompanion{true};    //!< Look for X.salient.rawlog beside X.rawlog.
 };
 
-/** Reads a whole rawlog (gzip or plain) and its companion file. External pictures are not loaded,
- * but their folder is set in each observation through TLog::imagesFolder (see loadPicture()).
+/** Reads a whole rawlog (gzip or plain) and its companion file. External pictures are not loaded;
+ * loadPicture() finds them with TLog::imagesFolder.
+ *
+ * Odometry of an observation-only log is interpolated to the time of each step; before the first
+ * and after the last record the end pose is held, however long (TLog::odometry tells the gap). In
+ * an action/SF log the motions of the actions add up; where no action states one, odometry records
+ * in the frames take their place. The observations of a companion join an observation-only log in
+ * order of time; in an action/SF log each goes to the frame that holds the observation nearest in
+ * time. Where log and companion both hold records of a picture, both are kept.
+ *
+ * Damage is told before it is used: gzip check sums are verified first, and counts in the common
+ * records are held against the length of the file. A plain file with false lengths elsewhere, such
+ * as in a text, can still make MRPT claim up to 4 GB before it is refused.
  * \throw std::runtime_error one line, naming the file and what is wrong: missing, empty, not a
  * rawlog, a class that is not registered, or truncated (with the last good time). */
 TLog readLog(const std::string& file, const TLogReaderOptions& options = {});

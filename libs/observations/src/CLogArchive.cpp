@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CLogArchive.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+#include <string_view>
+
+namespace fs = std::filesystem;
+
+namespace salma::observations {
+namespace {
+
+constexpr std::uint8_t kNameFlag = 0x80;  // in the length byte before a class name
+constexpr std::size_t kMaxName = 120;     // MRPT's own limit
+
+bool isClassName(std::string_view text) {
+    return std::all_of(text.begin(), text.end(), [](unsigned char c) {
+        return std::isalnum(c) || c == '_' || c == ':' || c == '<' || c == '>' || c == ',';
+    });
+}
+
+}  // namespace
+
+CLogArchive::CLogArchive(const std::string& file) : m_file(file) {
+    std::error_code error;
+    if (!fs::exists(file, error)) throw std::runtime_error(file + ": no such file");
+    if (fs::is_directory(file, error)) throw std::runtime_error(file + ": is a folder, not a file");
+    inspect();
+    if (m_size == 0 && !m_truncated) throw std::runtime_error(file + ": is empty");
+    m_stream = open();
+}
+
+CLogArchive::TGzip CLogArchive::open() const {
+    TGzip stream(gzopen(m_file.c_str(), "rb"));
+    if (!stream) throw std::runtime_error(m_file + ": cannot be read: " + std::strerror(errno));
+    gzbuffer(stream.get(), 1U << 17);
+    return stream;
+}
+
+void CLogArchive::inspect() {
+    const TGzip stream = open();
+    std::array<char, 1U << 16> buffer{};
+    for (int n = 0;
+         (n = gzread(stream.get(), buffer.data(), static_cast<unsigned>(buffer.size()))) > 0;) {
+        if (m_size == 0) m_head.assign(buffer.data(), std::min<std::size_t>(n, kMaxName + 1));
+        m_size += static_cast<std::uint64_t>(n);
+    }
+    int code = Z_OK;
+    const std::string problem = gzerror(stream.get(), &code);
+    m_truncated = code == Z_BUF_ERROR;
+    if (code != Z_OK && code != Z_BUF_ERROR)
+        throw std::runtime_error(
+            m_file + ": is damaged after " + std::to_string(m_size) +
+            " unpacked bytes: " + (code == Z_ERRNO ? std::strerror(errno) : problem));
+}
+
+bool CLogArchive::beginsAsRawlog() const {
+    if (m_head.empty()) return m_truncated;  // broken off before the first byte of content
+    const auto first = static_cast<std::uint8_t>(m_head[0]);
+    const std::size_t length = first & ~kNameFlag;
+    std::size_t start = 1;
+    if (!(first & kNameFlag)) {  // before MRPT 0.5.5: the length has four bytes
+        for (start = 1; start < 4 && start < m_head.size(); ++start)
+            if (m_head[start] != '\0') return false;
+    }
+    return length > 0 && length <= kMaxName &&
+           isClassName(std::string_view(m_head).substr(std::min(start, m_head.size()), length));
+}
+
+std::size_t CLogArchive::read(void* data, std::size_t bytes) {
+    if (bytes > m_size - m_position) {
+        m_brokeOff = true;
+        throw std::runtime_error("the file breaks off");
+    }
+    auto* target = static_cast<std::uint8_t*>(data);
+    for (std::size_t done = 0; done < bytes;) {
+        const std::size_t part = std::min<std::size_t>(bytes - done, 1U << 30);
+        const int n = gzread(m_stream.get(), target + done, static_cast<unsigned>(part));
+        if (n <= 0) throw std::runtime_error("the file changed while it was read");
+        done += static_cast<std::size_t>(n);
+    }
+    notice(target, bytes);
+    m_position += bytes;
+    return bytes;
+}
+
+std::size_t CLogArchive::write(const void*, std::size_t) {
+    throw std::logic_error("a log that is read cannot be written");
+}
+
+void CLogArchive::notice(const std::uint8_t* data, std::size_t bytes) {
+    m_guard.check(m_position, {reinterpret_cast<const char*>(data), bytes}, m_size);
+    if (m_versionFollows && bytes == 1) {
+        m_guard.begin(m_lastClass, data[0], m_position + 1);
+        m_versionFollows = false;
+        return;
+    }
+    const std::string_view text(reinterpret_cast<const char*>(data), bytes);
+    m_versionFollows = m_nameLength > 0 && bytes == m_nameLength && isClassName(text);
+    if (m_versionFollows) m_lastClass = text;
+    m_nameLength = bytes == 1 && (data[0] & kNameFlag) ? data[0] & ~kNameFlag : 0;
+}
+
+}  // namespace salma::observations
