@@ -53,6 +53,8 @@ struct TDropCounts {
     std::size_t distance{0};   //!< Outside the individual gate.
     std::size_t appearance{0};
     std::size_t joint{0};  //!< Inside the individual gate, outside the joint one.
+
+    TDropCounts& operator+=(const TDropCounts& other);
 };
 
 /// Outcome of one step.

@@ -3,26 +3,27 @@
 
 #include <mrpt/slam/CRangeBearingKFSLAM2D.h>
 #include <salma/association/CDataAssociator.h>
+#include <salma/slam/CLandmarkTable.h>
+#include <salma/slam/CProvisionalCorners.h>
 #include <salma/slam/CSlamBackend.h>
 #include <salma/slam/TEkfOptions.h>
+#include <salma/slam/blockFilter.h>
 
-#include <functional>
 #include <memory>
+#include <optional>
 
 namespace salma::slam {
 
-/// Log likelihood ratio same/other of a seen patch and a stored one; NaN: cannot tell.
-using PatchRatio =
-    std::function<double(const observations::TPatch& seen, const observations::TPatch& stored)>;
-
 /** EKF-SLAM of posters and corners on the state of MRPT's range-bearing filter.
  *
- * State, ids, views and saved files are MRPT's: pose (x, y, heading) and 2-D landmarks. */
+ * State, ids, views and saved files are MRPT's: pose (x, y, heading) and 2-D landmarks; the ids of
+ * MRPT are those of the record. Odometry counts from the first step, also while there is no
+ * landmark yet (MRPT's own class ignores it then). Measurements are in the robot frame. */
 class CSalientEKF2D : public mrpt::slam::CRangeBearingKFSLAM2D, public CSlamBackend {
  public:
     /** \param ratio Null: appearance is not used.
      * \throw std::invalid_argument if options are out of range. */
-    CSalientEKF2D(const TEkfOptions& options,
+    CSalientEKF2D(const TEkfOptions& ekf,
                   const association::TAssociationOptions& association,
                   PatchRatio ratio = nullptr);
     ~CSalientEKF2D() override;
@@ -30,6 +31,61 @@ class CSalientEKF2D : public mrpt::slam::CRangeBearingKFSLAM2D, public CSlamBack
     void process(const TStepInput& step) override;
     mrpt::poses::CPosePDFGaussian pose() const override;
     void results(TRunRecord& record) const override;
+
+    const CLandmarkTable& landmarks() const { return m_landmarks; }
+    /// Pairs that the tests of the association excluded, over all steps.
+    const association::TDropCounts& dropped() const { return m_dropped; }
+
+ protected:
+    // Hooks of MRPT's step, for `update = mrpt` only.
+    void OnTransitionModel(const KFArray_ACT& u, KFArray_VEH& pose, bool& skip) const override;
+    void OnObservationJacobians(size_t index, KFMatrix_OxV& Hx, KFMatrix_OxF& Hy) const override;
+    void OnGetObservationNoise(KFMatrix_OxO& R) const override;
+    void OnPreComputingPredictions(const vector_KFArray_OBS& means,
+                                   std::vector<size_t>& indices) const override;
+    void OnGetObservationsAndDataAssociation(vector_KFArray_OBS& z,
+                                             std::vector<int>& pairings,
+                                             const vector_KFArray_OBS& predictions,
+                                             const KFMatrix& S,
+                                             const std::vector<size_t>& indicesInS,
+                                             const KFMatrix_OxO& R) override;
+    void OnNewLandmarkAddedToMap(const size_t row, const size_t index) override;
+
+ private:
+    /// What the current step has come to so far.
+    struct TCurrentStep {
+        TStepInput input;
+        std::optional<association::TAssociation> association;  //!< Made once, after prediction.
+        std::vector<EDecision> decisions;                      //!< By measurement.
+        std::vector<int> landmarks;  //!< By measurement, index in the state; -1: none.
+        std::vector<std::size_t> rowToObservation;  //!< Of MRPT's list of measurements.
+    };
+
+    // A caller of MRPT's own entry point would go past the association and the record.
+    using CRangeBearingKFSLAM2D::processActionObservation;
+
+    void stepByBlock();
+    void stepByMrpt();
+    void associate();
+    association::TAssociationProblem problem() const;
+    void holdBackCorners();
+    void enterLandmark(std::size_t observation, std::size_t index);
+    void learn();
+    void noteAssociation(const association::TAssociationProblem& problem);
+    void noteDecisions();
+    void notePose();
+    THeading heading() const;
+    Eigen::Vector3d poseMean() const;
+    TFilterState state();
+
+    TEkfOptions m_ekf;
+    std::unique_ptr<association::CDataAssociator> m_associator;
+    PatchRatio m_ratio;
+    CLandmarkTable m_landmarks;
+    CProvisionalCorners m_provisional;
+    association::TDropCounts m_dropped;
+    TCurrentStep m_now;
+    TRunRecord m_record;  //!< Rows of all steps; landmarks only in results().
 };
 
 }  // namespace salma::slam

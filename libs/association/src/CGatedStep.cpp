@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CGatedStep.h"
+
+#include <mrpt/math/distributions.h>
+#include <mrpt/math/wrap2pi.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+
+namespace salma::association {
+namespace {
+
+void check(const TAssociationProblem& problem) {
+    const Eigen::MatrixXd& covariance = problem.predictionCovariance;
+    const auto size = static_cast<Eigen::Index>(2 * problem.landmarks.size());
+    if (covariance.rows() != size || covariance.cols() != size)
+        throw std::invalid_argument("Prediction covariance is " +
+                                    std::to_string(covariance.rows()) + " x " +
+                                    std::to_string(covariance.cols()) + ", not " +
+                                    std::to_string(size) + " x " + std::to_string(size));
+    if (!covariance.allFinite())
+        throw std::invalid_argument("Prediction covariance of " +
+                                    std::to_string(problem.landmarks.size()) +
+                                    " landmarks is not finite");
+    for (std::size_t i = 0; i < problem.landmarks.size(); ++i)
+        if (!problem.landmarks[i].z.allFinite())
+            throw std::invalid_argument("Prediction of landmark " + std::to_string(i) +
+                                        " is not finite");
+}
+
+}  // namespace
+
+CGatedStep::CGatedStep(const TAssociationOptions& options, const TAssociationProblem& problem)
+    : m_options(options),
+      m_problem(problem),
+      m_gate(mrpt::math::chi2inv(options.gateQuantile, 2)),
+      m_wallGate2(mrpt::math::chi2inv(options.wallAngleQuantile, 1)),
+      m_joint(problem),
+      m_pairs(problem.measurements.size()),
+      m_open(problem.measurements.size(), true),
+      m_taken(problem.landmarks.size(), false) {
+    check(problem);
+    m_result.decisions.resize(problem.measurements.size());
+    rejectClutter();
+    pairIdentities();
+    m_identityDistance2 = m_joint.distance2();
+    m_identityPairings = m_joint.pairings();
+    for (std::size_t i = 0; i < problem.measurements.size(); ++i)
+        if (m_open[i]) gate(i);
+}
+
+void CGatedStep::rejectClutter() {
+    std::set<int> identities;
+    for (std::size_t i = 0; i < m_problem.measurements.size(); ++i) {
+        const TMeasurement& measurement = m_problem.measurements[i];
+        if (!measurement.z.allFinite() || !(measurement.z[0] > 0) || !measurement.R.allFinite())
+            decide(i, EVerdict::clutter, EReason::notFinite);
+        else if (measurement.R.llt().info() != Eigen::Success)
+            decide(i, EVerdict::clutter, EReason::badCovariance);
+        else if (measurement.identity && !identities.insert(*measurement.identity).second)
+            decide(i, EVerdict::clutter, EReason::repeatedIdentity);
+    }
+}
+
+void CGatedStep::pairIdentities() {
+    for (std::size_t i = 0; i < m_problem.measurements.size(); ++i) {
+        const auto& identity = m_problem.measurements[i].identity;
+        if (!m_open[i] || !identity) continue;
+        for (std::size_t j = 0; j < m_problem.landmarks.size(); ++j) {
+            if (m_problem.landmarks[j].identity != identity || m_taken[j]) continue;
+            const auto test = CJointInnovation(m_problem).test(i, j);
+            if (test && m_joint.test(i, j)) {
+                TPair known;
+                known.landmark = j;
+                known.distance2 = test->distance2;
+                known.inGate = known.distance2 <= m_gate;
+                m_pairs[i] = {known};
+                pair(i, known, EReason::identity);
+            } else {
+                ++m_result.dropped.singular;
+                decide(i, EVerdict::clutter, EReason::badCovariance);
+            }
+            break;
+        }
+    }
+}
+
+bool CGatedStep::compatible(const TMeasurement& measurement, const TPredictedLandmark& landmark) {
+    TDropCounts& dropped = m_result.dropped;
+    if (!landmark.visible) return ++dropped.invisible, false;
+    if (measurement.kind != landmark.kind ||
+        (measurement.kind == ELandmarkKind::corner && measurement.convex != landmark.convex))
+        return ++dropped.kind, false;
+    if (measurement.identity && landmark.identity && measurement.identity != landmark.identity)
+        return ++dropped.identity, false;
+    if (std::isnan(measurement.wallAngle) || std::isnan(landmark.wallAngle)) return true;
+    const double turn = mrpt::math::wrapToPi(measurement.wallAngle - landmark.wallAngle);
+    const double variance = measurement.wallAngleSigma * measurement.wallAngleSigma +
+                            landmark.wallAngleSigma * landmark.wallAngleSigma;
+    if (!(turn * turn <= m_wallGate2 * variance)) return ++dropped.wallAngle, false;
+    return true;
+}
+
+void CGatedStep::gate(std::size_t observation) {
+    const CJointInnovation alone(m_problem);
+    for (std::size_t j = 0; j < m_problem.landmarks.size(); ++j) {
+        if (m_taken[j]) {  // by an identity
+            ++m_result.dropped.identity;
+            continue;
+        }
+        if (!compatible(m_problem.measurements[observation], m_problem.landmarks[j])) continue;
+        const auto test = alone.test(observation, j);
+        if (!test) {
+            ++m_result.dropped.singular;
+            continue;
+        }
+        TPair pair;
+        pair.landmark = j;
+        pair.distance2 = test->distance2;
+        pair.inGate = pair.distance2 <= m_gate;
+        if (!pair.inGate) ++m_result.dropped.distance;
+        if (pair.inGate || pair.distance2 <= m_options.newDistance2)
+            m_pairs[observation].push_back(pair);
+    }
+}
+
+bool CGatedStep::passesJointGate(const TConditionalInnovation& more) const {
+    const auto pairings = static_cast<unsigned>(m_joint.pairings() - m_identityPairings + 1);
+    const double total = m_joint.distance2() - m_identityDistance2 + more.distance2;
+    return total <= mrpt::math::chi2inv(m_options.jointQuantile, 2 * pairings);
+}
+
+void CGatedStep::weighAppearance() {
+    if (!m_problem.logRatio) return;
+    for (std::size_t i = 0; i < m_pairs.size(); ++i) {
+        if (!m_open[i] || m_problem.measurements[i].kind != ELandmarkKind::salient) continue;
+        for (TPair& pair : m_pairs[i]) {
+            pair.logRatio = m_problem.logRatio(i, pair.landmark);
+            pair.forbidden = pair.logRatio <= m_options.forbidLogLr;
+            if (pair.forbidden && pair.inGate) ++m_result.dropped.appearance;
+        }
+    }
+}
+
+void CGatedStep::decide(std::size_t observation, EVerdict verdict, EReason reason) {
+    m_open[observation] = false;
+    m_result.decisions[observation].verdict = verdict;
+    m_result.decisions[observation].reason = reason;
+}
+
+void CGatedStep::pair(std::size_t observation, const TPair& pair, EReason reason) {
+    m_joint.add(observation, pair.landmark);
+    m_taken[pair.landmark] = true;
+    decide(observation, EVerdict::paired, reason);
+    TDecision& decision = m_result.decisions[observation];
+    decision.landmark = static_cast<int>(pair.landmark);
+    decision.distance2 = pair.distance2;
+    decision.logRatio = pair.logRatio;
+}
+
+bool CGatedStep::isNear(std::size_t observation, const TPair& pair, bool givenPairings) const {
+    if (pair.forbidden) return false;
+    if (!givenPairings) return true;
+    const auto test = m_joint.test(observation, pair.landmark);
+    return !test || test->distance2 <= m_options.newDistance2;
+}
+
+void CGatedStep::settle(std::size_t observation, EReason reason, bool givenPairings) {
+    bool near = false;
+    bool hasCandidate = false;
+    for (const TPair& pair : m_pairs[observation]) {
+        near = near || isNear(observation, pair, givenPairings);
+        hasCandidate = hasCandidate || (pair.inGate && !pair.forbidden);
+    }
+    if (near)
+        decide(observation, EVerdict::deferred, hasCandidate ? reason : EReason::nearLandmark);
+    else
+        decide(observation, EVerdict::created,
+               m_problem.measurements[observation].identity ? EReason::identity
+                                                            : EReason::unexplained);
+}
+
+TAssociation CGatedStep::finish() {
+    for (std::size_t i = 0; i < m_pairs.size(); ++i) {
+        TDecision& decision = m_result.decisions[i];
+        for (const TPair& pair : m_pairs[i]) {
+            const bool chosen = decision.landmark == static_cast<int>(pair.landmark);
+            if (!pair.inGate && !chosen) continue;
+            ++decision.candidates;
+            m_result.candidates.push_back(
+                {i, pair.landmark, pair.distance2, pair.logRatio, chosen});
+        }
+    }
+    m_result.jointDistance2 = m_joint.distance2();
+    return std::move(m_result);
+}
+
+}  // namespace salma::association

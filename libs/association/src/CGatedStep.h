@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <salma/association/CDataAssociator.h>
+#include <salma/association/CJointInnovation.h>
+
+#include <vector>
+
+namespace salma::association {
+
+/// A landmark that a measurement could show.
+struct TPair {
+    std::size_t landmark{0};
+    double distance2{0};  //!< By itself, whatever else is paired.
+    double logRatio{std::numeric_limits<double>::quiet_NaN()};
+    bool inGate{false};
+    bool forbidden{false};  //!< Excluded by appearance.
+};
+
+/** The association of one step while a method works on it: what all methods have in common.
+ *
+ * Construction checks the problem, sorts out clutter, pairs by identity and gates the rest. The
+ * method then pairs what it wants and settles every other open measurement. */
+class CGatedStep {
+ public:
+    /// \throw std::invalid_argument, see CDataAssociator::associate().
+    CGatedStep(const TAssociationOptions& options, const TAssociationProblem& problem);
+
+    /// Landmarks within `newDistance2` of a measurement that could be it, sorted by index; empty
+    /// for one that identity or clutter decided.
+    const std::vector<TPair>& pairs(std::size_t observation) const { return m_pairs[observation]; }
+    bool isOpen(std::size_t observation) const { return m_open[observation]; }
+    bool isTaken(std::size_t landmark) const { return m_taken[landmark]; }
+    const CJointInnovation& joint() const { return m_joint; }
+    /// True if the joint gate holds with one more pairing. Pairings by identity are taken for
+    /// granted: the others are judged given them.
+    bool passesJointGate(const TConditionalInnovation& more) const;
+    TDropCounts& dropped() { return m_result.dropped; }
+
+    /// Asks the appearance of every pair that has one and marks what it forbids.
+    void weighAppearance();
+
+    void pair(std::size_t observation, const TPair& pair, EReason reason);
+
+    /** Makes an open measurement a new landmark if it is clear of all that it could be, else defers
+     * it for `reason`. \param givenPairings Distances are judged given the pairings made. */
+    void settle(std::size_t observation, EReason reason, bool givenPairings);
+
+    /// Call once, when every measurement is decided.
+    TAssociation finish();
+
+ private:
+    void rejectClutter();
+    void pairIdentities();
+    void gate(std::size_t observation);
+    bool compatible(const TMeasurement& measurement, const TPredictedLandmark& landmark);
+    bool isNear(std::size_t observation, const TPair& pair, bool givenPairings) const;
+    void decide(std::size_t observation, EVerdict verdict, EReason reason);
+
+    const TAssociationOptions& m_options;
+    const TAssociationProblem& m_problem;
+    double m_gate;       //!< chi2 with 2 degrees of freedom
+    double m_wallGate2;  //!< chi2 with 1 degree of freedom
+    CJointInnovation m_joint;
+    double m_identityDistance2{0};  //!< Share of the pairings by identity in the joint distance.
+    std::size_t m_identityPairings{0};
+    TAssociation m_result;
+    std::vector<std::vector<TPair>> m_pairs;
+    std::vector<bool> m_open;
+    std::vector<bool> m_taken;
+};
+
+}  // namespace salma::association

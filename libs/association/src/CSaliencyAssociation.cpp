@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <mrpt/math/distributions.h>
+#include <salma/association/CSaliencyAssociation.h>
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "CGatedStep.h"
+
+namespace salma::association {
+namespace {
+
+constexpr double noScore = -std::numeric_limits<double>::infinity();
+
+/// A pair that passes all gates, given the pairings made so far.
+struct TScored {
+    const TPair* pair;
+    double score;  //!< log LR + log density [nats]
+};
+
+/// What speaks for the best landmark of a measurement.
+struct TBest {
+    std::size_t observation{0};
+    TScored best{nullptr, noScore};
+    double lead{0};  //!< Over the strongest rival [nats].
+};
+
+/// Searches the pairings of one step.
+class CBestFirst {
+ public:
+    CBestFirst(const TAssociationOptions& options, CGatedStep& step, std::size_t observations)
+        : m_options(options),
+          m_step(step),
+          m_gate(mrpt::math::chi2inv(options.gateQuantile, 2)),
+          m_scores(observations) {}
+
+    void run();
+
+ private:
+    void score();
+    /// Best score of a measurement with any landmark but `landmark`; noScore for none.
+    double secondBest(std::size_t observation, std::size_t landmark) const;
+    TBest best(std::size_t observation) const;
+    /// Why the best landmark of a measurement must not be paired; nothing if it may.
+    std::optional<EReason> objection(const TBest& candidate) const;
+    EReason whyNotScored(std::size_t observation);
+
+    const TAssociationOptions& m_options;
+    CGatedStep& m_step;
+    double m_gate;
+    std::vector<std::vector<TScored>> m_scores;
+};
+
+void CBestFirst::score() {
+    for (std::size_t i = 0; i < m_scores.size(); ++i) {
+        m_scores[i].clear();
+        if (!m_step.isOpen(i)) continue;
+        for (const TPair& pair : m_step.pairs(i)) {
+            if (!pair.inGate || pair.forbidden || m_step.isTaken(pair.landmark)) continue;
+            const auto test = m_step.joint().test(i, pair.landmark);
+            if (!test || !(test->distance2 <= m_gate) || !m_step.passesJointGate(*test)) continue;
+            const double logRatio = std::isnan(pair.logRatio) ? 0 : pair.logRatio;
+            m_scores[i].push_back({&pair, test->logDensity + logRatio});
+        }
+    }
+}
+
+double CBestFirst::secondBest(std::size_t observation, std::size_t landmark) const {
+    double found = noScore;
+    for (const TScored& scored : m_scores[observation])
+        if (scored.pair->landmark != landmark) found = std::max(found, scored.score);
+    return found;
+}
+
+TBest CBestFirst::best(std::size_t observation) const {
+    TBest result;
+    result.observation = observation;
+    for (const TScored& scored : m_scores[observation])
+        if (scored.score > result.best.score) result.best = scored;
+    if (result.best.pair == nullptr) return result;
+    const std::size_t landmark = result.best.pair->landmark;
+    const double second = secondBest(observation, landmark);
+    result.lead = result.best.score - second;
+    // A rival measurement takes the landmark away; each of the two then has its next explanation.
+    const double gain = result.best.score - std::max(second, m_options.otherLogDensity);
+    for (std::size_t k = 0; k < m_scores.size(); ++k)
+        for (const TScored& rival : m_scores[k]) {
+            if (k == observation || rival.pair->landmark != landmark) continue;
+            const double loss = std::max(secondBest(k, landmark), m_options.otherLogDensity);
+            result.lead = std::min(result.lead, gain + loss - rival.score);
+        }
+    return result;
+}
+
+std::optional<EReason> CBestFirst::objection(const TBest& candidate) const {
+    if (candidate.best.pair->logRatio < m_options.acceptLogLr) return EReason::unsureAppearance;
+    if (!(candidate.best.score >= m_options.otherLogDensity)) return EReason::improbable;
+    if (!(candidate.lead >= m_options.margin)) return EReason::ambiguous;
+    return {};
+}
+
+EReason CBestFirst::whyNotScored(std::size_t observation) {
+    bool impossible = false;
+    for (const TPair& pair : m_step.pairs(observation)) {
+        if (!pair.inGate || pair.forbidden || m_step.isTaken(pair.landmark)) continue;
+        impossible = true;
+        ++m_step.dropped().joint;
+    }
+    return impossible ? EReason::jointlyImpossible : EReason::taken;
+}
+
+void CBestFirst::run() {
+    while (true) {
+        score();
+        std::optional<TBest> chosen;
+        for (std::size_t i = 0; i < m_scores.size(); ++i) {
+            const TBest candidate = best(i);
+            if (candidate.best.pair == nullptr || objection(candidate)) continue;
+            if (!chosen || candidate.lead > chosen->lead ||
+                (candidate.lead == chosen->lead && candidate.best.score > chosen->best.score))
+                chosen = candidate;
+        }
+        if (!chosen) break;
+        m_step.pair(chosen->observation, *chosen->best.pair, EReason::nearest);
+    }
+    for (std::size_t i = 0; i < m_scores.size(); ++i) {
+        if (!m_step.isOpen(i)) continue;
+        const TBest candidate = best(i);
+        m_step.settle(i, candidate.best.pair ? *objection(candidate) : whyNotScored(i), true);
+    }
+}
+
+}  // namespace
+
+CSaliencyAssociation::CSaliencyAssociation(const TAssociationOptions& options)
+    : m_options(options) {
+    m_options.validate();
+}
+
+TAssociation CSaliencyAssociation::associate(const TAssociationProblem& problem) const {
+    CGatedStep step(m_options, problem);
+    step.weighAppearance();
+    CBestFirst(m_options, step, problem.measurements.size()).run();
+    return step.finish();
+}
+
+}  // namespace salma::association

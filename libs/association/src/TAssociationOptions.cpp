@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <salma/association/TAssociationOptions.h>
+
+#include <stdexcept>
+
+namespace salma::association {
+
+void TAssociationOptions::visit(config::COptionVisitor& v) {
+    v.choice("method", method,
+             {{"nn", EMethod::nn}, {"scnn", EMethod::scnn}, {"saliency", EMethod::saliency}},
+             "nearest neighbour, sequential compatibility, or geometry and appearance together");
+    v.number("gate_quantile", gateQuantile, config::insideOf(0, 1),
+             "probability that a true pairing passes the individual gate");
+    v.number("joint_quantile", jointQuantile, config::insideOf(0, 1),
+             "the same for all pairings of a step together (scnn, saliency)");
+    v.number("new_distance2", newDistance2, config::atLeast(0),
+             "squared Mahalanobis distance of a new landmark from all others");
+    v.number("wall_angle_quantile", wallAngleQuantile, config::insideOf(0, 1),
+             "probability that the right wall passes the test of its angle");
+    v.number("accept_log_lr", acceptLogLr, config::anyNumber(),
+             "log likelihood ratio from which appearance proves a candidate (saliency)");
+    v.number("forbid_log_lr", forbidLogLr, config::anyNumber(),
+             "log likelihood ratio up to which appearance excludes a candidate (saliency)");
+    v.number("margin", margin, config::atLeast(0),
+             "least lead in nats over the second-best explanation (saliency)");
+    v.number("other_log_density", otherLogDensity, config::anyNumber(),
+             "log density of landmarks that are not in the map, per metre and radian (saliency)");
+}
+
+void TAssociationOptions::validate() const {
+    if (!(forbidLogLr < acceptLogLr))
+        throw std::invalid_argument(
+            "forbid_log_lr = " + std::to_string(forbidLogLr) +
+            " must be smaller than accept_log_lr = " + std::to_string(acceptLogLr));
+}
+
+}  // namespace salma::association

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "CGatedStep.h"
+
+namespace salma::association {
+
+struct TGatedPair {
+    std::size_t observation;
+    TPair pair;
+};
+
+/// All pairs inside the individual gate, the nearest first.
+std::vector<TGatedPair> nearestPairs(const CGatedStep& step, std::size_t observations);
+
+}  // namespace salma::association

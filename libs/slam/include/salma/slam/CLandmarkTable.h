@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <salma/association/TAssociationProblem.h>
+#include <salma/slam/TRunRecord.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace salma::slam {
+
+/// Log likelihood ratio same/other of a seen patch and a stored one; NaN: cannot tell.
+using PatchRatio =
+    std::function<double(const observations::TPatch& seen, const observations::TPatch& stored)>;
+
+/// One view of a salient landmark.
+struct TView {
+    std::shared_ptr<const observations::TPatch> patch;
+    double angle{0};  //!< From the wall's normal to the robot, counter-clockwise [rad].
+};
+
+/// What is known of a landmark besides its place in the filter.
+struct TLandmark {
+    int id{0};
+    association::ELandmarkKind kind{association::ELandmarkKind::corner};
+    bool convex{false};
+    std::optional<int> identity;  //!< As the log states it.
+    double wallAngle{0};          //!< Of the wall's normal, world; NaN if unknown [rad].
+    double wallAngleSigma{0};     //!< [rad]
+    std::vector<TView> views;
+    double firstWallAngle{0};  //!< As it was at creation, for the record [rad].
+    mrpt::math::TPoint2D firstMean;
+    Eigen::Matrix2d firstCovariance{Eigen::Matrix2d::Zero()};
+    std::size_t sightings{0};
+    double firstTime{0}, lastTime{0};  //!< [s since 1970]
+};
+
+/// Heading of the robot when it sees something.
+struct THeading {
+    double mean{0};   //!< [rad]
+    double sigma{0};  //!< [rad]
+};
+
+/** Landmarks in the order of the filter's state, with their appearance.
+ *
+ * A salient landmark keeps up to `maxPatches` views that differ by `patchSpread` in angle; when
+ * there are more, the most oblique one goes. */
+class CLandmarkTable {
+ public:
+    CLandmarkTable(int maxPatches, double patchSpread);
+
+    std::size_t size() const { return m_landmarks.size(); }
+    const TLandmark& operator[](std::size_t index) const { return m_landmarks[index]; }
+
+    /** Appends a landmark, without a sighting yet. \return Its id: the identity of the measurement
+     * if it has one that no landmark uses, else the smallest number above all ids. */
+    int add(const association::TMeasurement& measurement, double time);
+
+    void setFirst(std::size_t index,
+                  const Eigen::Vector2d& mean,
+                  const Eigen::Matrix2d& covariance);
+
+    /// Counts a sighting and learns view, wall angle and identity from it.
+    void sight(std::size_t index,
+               const association::TMeasurement& measurement,
+               double time,
+               const THeading& heading);
+
+    /// What a robot with that heading expects to see, without range and bearing.
+    association::TPredictedLandmark expected(std::size_t index, const THeading& heading) const;
+
+    /// Largest ratio over the views of a landmark; NaN if none can tell.
+    double bestRatio(std::size_t index,
+                     const observations::TPatch& seen,
+                     const PatchRatio& ratio) const;
+
+ private:
+    void addView(TLandmark& landmark, const TView& view);
+
+    std::size_t m_maxPatches;
+    double m_patchSpread;
+    int m_nextId{0};
+    std::vector<TLandmark> m_landmarks;
+};
+
+}  // namespace salma::slam

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <salma/slam/CSalientEKF2D.h>
+#include <salma/slam/rangeBearingModel.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace salma::slam {
+
+using association::ELandmarkKind;
+using association::EVerdict;
+using association::TAssociationProblem;
+using association::TMeasurement;
+
+namespace {
+
+void check(const TStepInput& step) {
+    const auto& mean = step.increment.mean;
+    const bool finite = std::isfinite(step.time) && std::isfinite(mean.x()) &&
+                        std::isfinite(mean.y()) && std::isfinite(mean.phi()) &&
+                        step.increment.cov.asEigen().allFinite();
+    if (!finite) throw std::invalid_argument("Odometry of a step is not finite");
+    if (!step.pixels.empty() && step.pixels.size() != step.measurements.size())
+        throw std::invalid_argument("A step has " + std::to_string(step.pixels.size()) +
+                                    " pixels for " + std::to_string(step.measurements.size()) +
+                                    " measurements");
+}
+
+}  // namespace
+
+CSalientEKF2D::CSalientEKF2D(const TEkfOptions& ekf,
+                             const association::TAssociationOptions& association,
+                             PatchRatio ratio)
+    : m_ekf(ekf),
+      m_associator(association::createAssociator(association)),
+      m_ratio(std::move(ratio)),
+      m_landmarks(ekf.maxPatches, ekf.patchSpread),
+      m_provisional(ekf.minSightingsCorner, ekf.provisionalRadius, ekf.provisionalSteps) {
+    m_ekf.validate();
+}
+
+CSalientEKF2D::~CSalientEKF2D() = default;
+
+TFilterState CSalientEKF2D::state() {
+    const Eigen::Index size = m_xkk.size();
+    return {Eigen::Map<Eigen::VectorXd>(&m_xkk[0], size),
+            Eigen::Map<RowMatrix>(&m_pkk(0, 0), size, size)};
+}
+
+Eigen::Vector3d CSalientEKF2D::poseMean() const { return {m_xkk[0], m_xkk[1], m_xkk[2]}; }
+
+THeading CSalientEKF2D::heading() const { return {m_xkk[2], std::sqrt(m_pkk(2, 2))}; }
+
+mrpt::poses::CPosePDFGaussian CSalientEKF2D::pose() const {
+    mrpt::poses::CPosePDFGaussian result;
+    getCurrentRobotPose(result);
+    return result;
+}
+
+void CSalientEKF2D::process(const TStepInput& step) {
+    check(step);
+    m_now = {};
+    m_now.input = step;
+    if (m_ekf.ignoreIdentities)
+        for (TMeasurement& measurement : m_now.input.measurements) measurement.identity.reset();
+    if (m_ekf.update == EUpdate::block)
+        stepByBlock();
+    else
+        stepByMrpt();
+    learn();
+    noteDecisions();
+    notePose();
+}
+
+void CSalientEKF2D::stepByBlock() {
+    const auto& increment = m_now.input.increment;
+    predict(state(), {increment.mean.x(), increment.mean.y(), increment.mean.phi()},
+            increment.cov.asEigen());
+    associate();
+    std::vector<TPairedMeasurement> paired;
+    const auto& measurements = m_now.input.measurements;
+    for (std::size_t i = 0; i < measurements.size(); ++i)
+        if (m_now.decisions[i] == EDecision::paired)
+            paired.push_back({static_cast<std::size_t>(m_now.landmarks[i]), measurements[i].z,
+                              measurements[i].R});
+    update(state(), paired);
+    for (std::size_t i = 0; i < measurements.size(); ++i) {
+        if (m_now.decisions[i] != EDecision::created) continue;
+        const std::size_t index = m_landmarks.size();
+        m_xkk.resize(m_xkk.size() + 2);
+        m_pkk.setSize(m_xkk.size(), m_xkk.size());
+        initializeLast(state(), measurements[i].z, measurements[i].R);
+        enterLandmark(i, index);
+    }
+}
+
+void CSalientEKF2D::enterLandmark(std::size_t observation, std::size_t index) {
+    const int id = m_landmarks.add(m_now.input.measurements[observation], m_now.input.time);
+    m_IDs.insert(id, static_cast<unsigned>(index));
+    m_now.landmarks[observation] = static_cast<int>(index);
+}
+
+TAssociationProblem CSalientEKF2D::problem() const {
+    const auto size = static_cast<Eigen::Index>(m_xkk.size());
+    const Eigen::Map<const Eigen::VectorXd> mean(&m_xkk[0], size);
+    const Eigen::Map<const RowMatrix> covariance(&m_pkk(0, 0), size, size);
+    TAssociationProblem result;
+    result.measurements = m_now.input.measurements;
+    result.predictionCovariance = predictionCovariance(mean, covariance);
+    const double halfView = m_ekf.fieldOfView / 2;
+    for (std::size_t k = 0; k < m_landmarks.size(); ++k) {
+        association::TPredictedLandmark expected = m_landmarks.expected(k, heading());
+        const auto row = static_cast<Eigen::Index>(2 * k);
+        expected.z = sighting(mean.head<3>(), mean.segment<2>(3 + row)).z;
+        // What lies at the border of view may be seen: three sigma are granted.
+        const Eigen::Vector2d slack =
+            3 * result.predictionCovariance.diagonal().segment<2>(row).cwiseSqrt();
+        expected.visible = expected.z[0] <= m_ekf.maxRange + slack[0] &&
+                           std::abs(expected.z[1]) <= halfView + slack[1];
+        result.landmarks.push_back(expected);
+    }
+    if (m_ratio)
+        result.logRatio = [this](std::size_t observation, std::size_t landmark) {
+            const auto& seen = m_now.input.measurements[observation].patch;
+            return seen ? m_landmarks.bestRatio(landmark, *seen, m_ratio)
+                        : std::numeric_limits<double>::quiet_NaN();
+        };
+    return result;
+}
+
+void CSalientEKF2D::associate() {
+    const TAssociationProblem posed = problem();
+    m_now.association = m_associator->associate(posed);
+    m_dropped += m_now.association->dropped;
+    for (const auto& decision : m_now.association->decisions) {
+        m_now.landmarks.push_back(decision.landmark);
+        switch (decision.verdict) {
+            case EVerdict::paired:
+                m_now.decisions.push_back(EDecision::paired);
+                break;
+            case EVerdict::created:
+                m_now.decisions.push_back(EDecision::created);
+                break;
+            case EVerdict::deferred:
+                m_now.decisions.push_back(EDecision::deferred);
+                break;
+            case EVerdict::clutter:
+                m_now.decisions.push_back(EDecision::clutter);
+        }
+    }
+    holdBackCorners();
+    noteAssociation(posed);
+}
+
+void CSalientEKF2D::holdBackCorners() {
+    const auto& measurements = m_now.input.measurements;
+    const auto isCorner = [](const TMeasurement& m) { return m.kind == ELandmarkKind::corner; };
+    if (std::none_of(measurements.begin(), measurements.end(), isCorner)) return;
+    m_provisional.beginStep();
+    for (std::size_t i = 0; i < measurements.size(); ++i) {
+        const TMeasurement& m = measurements[i];
+        if (m_now.decisions[i] != EDecision::created || !isCorner(m) || m.identity) continue;
+        if (!m_provisional.confirms(located(poseMean(), m.z).landmark, m.convex))
+            m_now.decisions[i] = EDecision::provisional;
+    }
+}
+
+void CSalientEKF2D::learn() {
+    const auto& measurements = m_now.input.measurements;
+    for (std::size_t i = 0; i < measurements.size(); ++i) {
+        const bool created = m_now.decisions[i] == EDecision::created;
+        if (!created && m_now.decisions[i] != EDecision::paired) continue;
+        const auto index = static_cast<std::size_t>(m_now.landmarks[i]);
+        m_landmarks.sight(index, measurements[i], m_now.input.time, heading());
+        if (!created) continue;
+        const auto row = static_cast<Eigen::Index>(3 + 2 * index);
+        m_landmarks.setFirst(index, Eigen::Vector2d(m_xkk[row], m_xkk[row + 1]),
+                             m_pkk.asEigen().block<2, 2>(row, row));
+    }
+}
+
+}  // namespace salma::slam

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <salma/slam/TEkfOptions.h>
+
+namespace salma::slam {
+
+void TEkfOptions::visit(config::COptionVisitor& v) {
+    v.choice("update", update, {{"block", EUpdate::block}, {"mrpt", EUpdate::mrpt}},
+             "own step with a covariance per measurement, or the step of MRPT's filter");
+    v.flag("ignore_identities", ignoreIdentities, "do not read the identities in the log");
+    v.number("max_range_m", maxRange, config::moreThan(0),
+             "distance up to which landmarks are expected to be seen");
+    v.degrees("field_of_view_deg", fieldOfView, {0, 360, true},
+              "angle, centred ahead, in which landmarks are expected to be seen");
+    v.integer("min_sightings_corner", minSightingsCorner, config::atLeast(1),
+              "steps in which a corner must be seen before it becomes a landmark");
+    v.number("provisional_radius_m", provisionalRadius, config::moreThan(0),
+             "distance within which sightings of a corner not yet in the map belong together");
+    v.integer("provisional_steps", provisionalSteps, config::atLeast(1),
+              "steps with corners after which a corner not yet in the map is forgotten");
+    v.integer("max_patches", maxPatches, config::atLeast(1),
+              "views of a salient landmark that are kept");
+    v.degrees("patch_spread_deg", patchSpread, config::between(0, 90),
+              "least difference in viewing angle between two kept views");
+}
+
+}  // namespace salma::slam

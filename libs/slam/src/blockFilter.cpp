@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <mrpt/math/wrap2pi.h>
+#include <salma/slam/blockFilter.h>
+#include <salma/slam/rangeBearingModel.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace salma::slam {
+namespace {
+
+constexpr Eigen::Index poseSize = 3;
+
+Eigen::Index rowOf(std::size_t landmark) {
+    return poseSize + 2 * static_cast<Eigen::Index>(landmark);
+}
+
+/// P H' of one measurement [n x 2].
+Eigen::MatrixX2d crossCovariance(const Eigen::Ref<const RowMatrix>& covariance,
+                                 const TSighting& expected,
+                                 Eigen::Index row) {
+    return covariance.leftCols<poseSize>() * expected.byPose.transpose() +
+           covariance.middleCols<2>(row) * expected.byLandmark.transpose();
+}
+
+/// H X of one measurement [2 x columns of X].
+Eigen::Matrix2Xd projected(const TSighting& expected,
+                           const Eigen::Ref<const Eigen::MatrixXd>& cross,
+                           Eigen::Index row) {
+    return expected.byPose * cross.topRows<poseSize>() +
+           expected.byLandmark * cross.middleRows<2>(row);
+}
+
+}  // namespace
+
+void predict(TFilterState state, const Eigen::Vector3d& increment, const Eigen::Matrix3d& Q) {
+    auto& P = state.covariance;
+    const TMotion motion = moved(state.mean.head<poseSize>(), increment);
+    const Eigen::Index others = state.mean.size() - poseSize;
+    const Eigen::Matrix3d pose = P.topLeftCorner<poseSize, poseSize>();
+    state.mean.head<poseSize>() = motion.pose;
+    Eigen::Matrix3d grown = motion.byPose * pose * motion.byPose.transpose() +
+                            motion.byIncrement * Q * motion.byIncrement.transpose();
+    P.topLeftCorner<poseSize, poseSize>() = 0.5 * (grown + grown.transpose());
+    P.topRightCorner(poseSize, others) =
+        (motion.byPose * P.topRightCorner(poseSize, others)).eval();
+    P.bottomLeftCorner(others, poseSize) = P.topRightCorner(poseSize, others).transpose();
+}
+
+Eigen::MatrixXd predictionCovariance(const Eigen::VectorXd& mean, const RowMatrix& covariance) {
+    const Eigen::Index count = (mean.size() - poseSize) / 2;
+    std::vector<TSighting> expected;
+    Eigen::MatrixXd cross(mean.size(), 2 * count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+        const Eigen::Index row = rowOf(k);
+        expected.push_back(sighting(mean.head<poseSize>(), mean.segment<2>(row)));
+        cross.middleCols<2>(2 * k) = crossCovariance(covariance, expected.back(), row);
+    }
+    Eigen::MatrixXd result(2 * count, 2 * count);
+    for (Eigen::Index k = 0; k < count; ++k)
+        result.middleRows<2>(2 * k) = projected(expected[k], cross, rowOf(k));
+    return 0.5 * (result + result.transpose());
+}
+
+void update(TFilterState state, const std::vector<TPairedMeasurement>& measurements) {
+    const auto count = static_cast<Eigen::Index>(measurements.size());
+    if (count == 0) return;
+    Eigen::MatrixXd cross(state.mean.size(), 2 * count);
+    Eigen::VectorXd residual(2 * count);
+    std::vector<TSighting> expected;
+    for (Eigen::Index k = 0; k < count; ++k) {
+        const TPairedMeasurement& m = measurements[k];
+        const Eigen::Index row = rowOf(m.landmark);
+        expected.push_back(sighting(state.mean.head<poseSize>(), state.mean.segment<2>(row)));
+        cross.middleCols<2>(2 * k) = crossCovariance(state.covariance, expected.back(), row);
+        residual[2 * k] = m.z[0] - expected.back().z[0];
+        residual[2 * k + 1] = mrpt::math::wrapToPi(m.z[1] - expected.back().z[1]);
+    }
+    Eigen::MatrixXd S(2 * count, 2 * count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+        S.middleRows<2>(2 * k) = projected(expected[k], cross, rowOf(measurements[k].landmark));
+        S.block<2, 2>(2 * k, 2 * k) += measurements[k].R;
+    }
+    const Eigen::LLT<Eigen::MatrixXd> factor(S);
+    if (factor.info() != Eigen::Success)
+        throw std::runtime_error("Innovation covariance of " + std::to_string(count) +
+                                 " measurements is not positive definite");
+    // W = P H' L^-T, so that K S K' = W W' and K nu = W (L^-1 nu).
+    const Eigen::MatrixXd W = factor.matrixL().solve(cross.transpose()).transpose();
+    const Eigen::VectorXd step = W * factor.matrixL().solve(residual);
+    if (!step.allFinite() || !W.allFinite())
+        throw std::runtime_error("Update by " + std::to_string(count) +
+                                 " measurements is not finite");
+    state.mean += step;
+    state.mean[2] = mrpt::math::wrapToPi(state.mean[2]);
+    state.covariance.selfadjointView<Eigen::Lower>().rankUpdate(W, -1.0);
+    state.covariance.triangularView<Eigen::StrictlyUpper>() =
+        state.covariance.transpose().triangularView<Eigen::StrictlyUpper>();
+}
+
+void initializeLast(TFilterState state, const Eigen::Vector2d& z, const Eigen::Matrix2d& R) {
+    const TLocated found = located(state.mean.head<poseSize>(), z);
+    const Eigen::Index row = state.mean.size() - 2;
+    auto& P = state.covariance;
+    state.mean.tail<2>() = found.landmark;
+    P.bottomLeftCorner(2, row) = found.byPose * P.topLeftCorner(poseSize, row);
+    P.topRightCorner(row, 2) = P.bottomLeftCorner(2, row).transpose();
+    const Eigen::Matrix2d own =
+        found.byPose * P.topLeftCorner<poseSize, poseSize>() * found.byPose.transpose() +
+        found.byMeasurement * R * found.byMeasurement.transpose();
+    P.bottomRightCorner<2, 2>() = 0.5 * (own + own.transpose());
+}
+
+}  // namespace salma::slam
