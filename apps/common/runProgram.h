@@ -12,7 +12,8 @@ namespace salma::apps {
  * Adds `--version`, starts `--help` with `examples`, parses, then calls `body`.
  * \param examples Two lines that can be copied to a shell.
  * \return 0 done; 1 `body` threw (its one-line message goes to standard error behind the program's
- * name); 2 unknown flag, missing argument or other misuse, also if `body` throws a CLI::ParseError. */
+ * name); 2 unknown flag, missing argument or other misuse, also if `body` throws a CLI::ParseError.
+ */
 int runProgram(CLI::App& app,
                const std::string& examples,
                int argc,

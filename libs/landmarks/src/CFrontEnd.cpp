@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 #include "warpWall.h"
@@ -66,7 +67,7 @@ TFrontEndResult CFrontEnd::process(const TView& view) const {
     for (const auto& line : view.walls) walls.emplace_back(view.camera, view.T_r_c, line);
 
     const auto peaks = m_saliency.detect(view.grey, m_selector.options().yMin);
-    const auto regions = m_clusterer.cluster(peaks);
+    const auto regions = m_clusterer.cluster(peaks).regions;
     std::vector<std::vector<cv::Point>> stable;
     if (m_options.joinByMser && regions.size() > 1)
         for (auto& region : m_stable.detect(view.grey)) stable.push_back(std::move(region.pixels));
@@ -133,7 +134,8 @@ std::vector<TSalientRegion> CFrontEnd::secondLook(const TPatch& patch, const cv:
     const cv::Rect wide =
         cv::Rect(box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin) &
         cv::Rect({0, 0}, grey.size());
-    auto regions = m_clusterer.cluster(m_saliency.detect(grey(wide).clone(), m_options.secondYMin));
+    auto regions =
+        m_clusterer.cluster(m_saliency.detect(grey(wide).clone(), m_options.secondYMin)).regions;
     for (auto& region : regions) {
         region.x += wide.x;
         region.y += wide.y;

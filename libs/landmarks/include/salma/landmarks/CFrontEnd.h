@@ -37,7 +37,7 @@ struct TFrontEndOptions : public config::TStrictOptions<TFrontEndOptions> {
 struct TSeeingOptions {
     TFrontEndOptions frontEnd;
     saliency::TScaleSaliencyOptions saliency;
-    saliency::TClustererOptions clustering;
+    saliency::TClusteringOptions clustering;
     saliency::TStableRegionsOptions mser;
     TSelectionOptions selection;
     TBorderOptions border;

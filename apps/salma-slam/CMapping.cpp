@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CMapping.h"
+
+#include <mrpt/math/wrap2pi.h>
+#include <mrpt/obs/CObservationImage.h>
+#include <salma/slam/rangeBearing.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "CProgressBar.h"
+#include "measurements.h"
+
+namespace salma::apps {
+
+using mrpt::obs::CObservation2DRangeScan;
+using observations::CObservationSalientLandmarks;
+
+/// What may become a step: observations that share one pose of the robot.
+struct CMapping::TEvent {
+    double time{0};  //!< [s since 1970]
+    std::vector<mrpt::obs::CObservation::Ptr> observations;
+    mrpt::poses::CPose2D odometry;                           //!< T_o_r at `time`.
+    std::optional<mrpt::poses::CPosePDFGaussian> increment;  //!< As the log states it.
+};
+
+CMapping::CMapping(const TSlamConfig& config,
+                   const observations::TLog& log,
+                   slam::CSlamBackend& backend)
+    : m_config(config),
+      m_log(log),
+      m_backend(backend),
+      m_lines(config.lines),
+      m_corners(config.corners),
+      m_noise(config.odometry) {}
+
+std::vector<CMapping::TEvent> CMapping::events(
+    const std::vector<CObservationSalientLandmarks::Ptr>& records) const {
+    std::map<mrpt::Clock::time_point, CObservationSalientLandmarks::Ptr> byPicture;
+    for (const auto& record : records) byPicture[record->timestamp] = record;
+    std::vector<TEvent> result;
+    for (const auto& step : m_log.steps) {
+        TEvent event{step.time, step.observations, step.odometry, step.increment};
+        for (auto& o : event.observations) {
+            const bool isPicture =
+                std::dynamic_pointer_cast<mrpt::obs::CObservationImage>(o) != nullptr;
+            const auto found = byPicture.find(o->timestamp);
+            if (isPicture && found != byPicture.end()) o = found->second;
+            const bool ofPicture =
+                std::dynamic_pointer_cast<CObservationSalientLandmarks>(o) != nullptr;
+            if (!ofPicture || m_log.actionFormat) continue;
+            const auto& options = m_config.seeing.frontEnd;
+            event.time = step.time - options.latencyCamera;
+            event.odometry = m_log.odometry.at(event.time, options.maxSkew).value_or(step.odometry);
+        }
+        result.push_back(std::move(event));
+    }
+    if (!m_log.actionFormat)  // a camera's latency may change the order
+        std::stable_sort(result.begin(), result.end(),
+                         [](const TEvent& a, const TEvent& b) { return a.time < b.time; });
+    return result;
+}
+
+/// True unless the robot has hardly moved since the last scan that was used.
+bool CMapping::isDue(const TEvent& event) const {
+    if (m_log.actionFormat || !m_log.hasOdometry || !m_lastScan) return true;
+    const auto travel = event.odometry - *m_lastScan;
+    return travel.norm() >= m_config.run.scanDistance ||
+           std::abs(mrpt::math::wrapToPi(travel.phi())) >= m_config.run.scanTurn;
+}
+
+/// Fills the measurements of `step`; false if the event is none that makes a step.
+bool CMapping::measure(const TEvent& event, slam::TStepInput& step) const {
+    bool isStep = m_log.actionFormat;
+    for (const auto& o : event.observations) {
+        if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(o)) {
+            if (!isDue(event)) continue;
+            isStep = true;
+            if (!m_config.run.corners) continue;
+            for (const auto& corner : m_corners.extract(m_lines.extract(*scan)).corners)
+                addCorner(corner, step);
+        } else if (const auto seen = std::dynamic_pointer_cast<CObservationSalientLandmarks>(o)) {
+            for (const auto& patch : seen->landmarks) addPatch(patch, step);
+            isStep = isStep || !seen->landmarks.empty();
+        } else if (const auto ranges =
+                       std::dynamic_pointer_cast<mrpt::obs::CObservationBearingRange>(o)) {
+            for (const auto& m : slam::measurementsOf(*ranges, m_config.rangeBearing))
+                addMeasurement(m, step);
+            isStep = true;
+        }
+    }
+    return isStep;
+}
+
+mrpt::poses::CPosePDFGaussian CMapping::incrementTo(const TEvent& event) {
+    if (event.increment) return *event.increment;
+    if (m_log.hasOdometry) return m_noise.increment(event.odometry - m_lastOdometry);
+    const double seconds = std::max(0.0, event.time - m_lastTime);
+    mrpt::poses::CPosePDFGaussian unknown;
+    const double position = m_config.run.unknownMotion * std::sqrt(seconds);
+    const double turn = m_config.run.unknownTurn * std::sqrt(seconds);
+    unknown.cov.setDiagonal(
+        std::vector<double>{position * position, position * position, turn * turn});
+    return unknown;
+}
+
+void CMapping::keepPoints(const CObservation2DRangeScan& scan, slam::TRunRecord& record) const {
+    constexpr std::size_t kThin =
+        4;  // a picture of the walls, not a map: every fourth beam will do
+    const auto T_w_r = m_backend.pose().mean;
+    const mrpt::poses::CPose2D T_w_l = T_w_r + mrpt::poses::CPose2D(scan.sensorPose);
+    const double sign = scan.rightToLeft ? 1 : -1;
+    const std::size_t n = scan.getScanSize();
+    for (std::size_t i = 0; i < n; i += kThin) {
+        if (!scan.getScanRangeValidity(i)) continue;
+        const double angle = sign * scan.aperture * (static_cast<double>(i) / (n - 1) - 0.5);
+        const double range = scan.getScanRange(i);
+        record.scanPoints.push_back(
+            T_w_l.composePoint({range * std::cos(angle), range * std::sin(angle)}));
+    }
+}
+
+void CMapping::run(const std::vector<CObservationSalientLandmarks::Ptr>& records,
+                   slam::TRunRecord& record) {
+    const auto all = events(records);
+    CProgressBar progress("steps", all.size());
+    bool first = true;
+    for (const auto& event : all) {
+        progress.step();
+        slam::TStepInput step;
+        if (!measure(event, step)) continue;
+        step.time = event.time;
+        step.odometry = event.odometry;
+        if (first && !event.increment) m_lastOdometry = event.odometry;
+        if (first) m_lastTime = event.time;
+        first = false;
+        step.increment = incrementTo(event);
+        m_backend.process(step);
+        m_lastTime = event.time;
+        m_lastOdometry = event.odometry;
+        for (const auto& o : event.observations)
+            if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(o)) {
+                m_lastScan = event.odometry;
+                keepPoints(*scan, record);
+            }
+    }
+}
+
+}  // namespace salma::apps

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <salma/appearance/CPatchMatcher.h>
+#include <salma/association/TAssociationOptions.h>
+#include <salma/landmarks/CFrontEnd.h>
+#include <salma/laser/CCornerExtractor.h>
+#include <salma/laser/CLineExtractor.h>
+#include <salma/slam/COdometryNoise.h>
+#include <salma/slam/TEkfOptions.h>
+#include <salma/slam/rangeBearing.h>
+
+#include <string>
+
+namespace salma::apps {
+
+/// Section [run] of config.ini.
+struct TRunOptions : public config::TStrictOptions<TRunOptions> {
+    std::string rawlog;  //!< Log to read if the command line names none.
+    int threads{0};      //!< For the pictures; 0: one per core. The result does not depend on it.
+    bool corners{true};  //!< Laser corners are landmarks.
+    double scanDistance{0.2};   //!< A scan is used after this much travel [m] ...
+    double scanTurn{0.0873};    //!< ... or after this much turning since the one before [rad].
+    double unknownMotion{0.5};  //!< Without odometry: sigma of the motion in one second [m].
+    double unknownTurn{0.523598776};  //!< Without odometry: sigma of the turn in one second [rad].
+
+    void visit(config::COptionVisitor& v);
+};
+
+/// All of config.ini, one member a section.
+struct TSlamConfig {
+    TRunOptions run;
+    laser::TLineOptions lines;
+    laser::TCornerOptions corners;
+    landmarks::TSeeingOptions seeing;
+    appearance::TMatcherOptions matcher;
+    association::TAssociationOptions association;
+    slam::TEkfOptions ekf;
+    slam::TOdometryOptions odometry;
+    slam::TRangeBearingOptions rangeBearing;
+
+    /// \throw std::invalid_argument naming file, section, key and value of the first mistake.
+    static TSlamConfig load(const std::string& file);
+
+    /// The whole file with every key, its value, meaning and range.
+    std::string asIni() const;
+};
+
+}  // namespace salma::apps

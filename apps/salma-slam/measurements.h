@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <salma/laser/TLine.h>
+#include <salma/observations/TPatch.h>
+#include <salma/slam/CSlamBackend.h>
+
+namespace salma::apps {
+
+/// Where the diagonals of the patch's quad cross: its centre in the picture [px].
+mrpt::math::TPoint2D centreOf(const observations::TPatch& patch);
+
+/// Each appends one measurement, with its place in the picture if it has one.
+void addCorner(const laser::TCorner& corner, slam::TStepInput& step);
+void addPatch(const observations::TPatch& patch, slam::TStepInput& step);
+void addMeasurement(const association::TMeasurement& measurement, slam::TStepInput& step);
+
+}  // namespace salma::apps
