@@ -2,6 +2,7 @@
 #include "scaleKernels.h"
 
 #include <algorithm>
+#include <cstring>
 
 #if defined(__x86_64__) && defined(__GNUC__)
 #define SALMA_X86 1
@@ -14,7 +15,7 @@ namespace {
 #define SALMA_INLINE [[gnu::always_inline]] inline
 
 template <class COUNT>
-SALMA_INLINE void add(COUNT* sum, const COUNT* a, const COUNT* b, int n) {
+SALMA_INLINE void add(COUNT* __restrict sum, const COUNT* a, const COUNT* b, int n) {
     for (int x = 0; x < n; ++x) sum[x] = static_cast<COUNT>(a[x] + b[x]);
 }
 
@@ -23,40 +24,81 @@ SALMA_INLINE void subtract(COUNT* __restrict out, const COUNT* a, const COUNT* b
     for (int x = 0; x < n; ++x) out[x] = static_cast<COUNT>(a[x] - b[x]);
 }
 
+/// kLanes counts in registers of WIDTH bytes each, as the compilers' vector types.
+template <class COUNT, int WIDTH>
+struct TRegisters {
+    typedef COUNT TVector __attribute__((vector_size(WIDTH)));
+    static constexpr int kEach = WIDTH / static_cast<int>(sizeof(COUNT));
+    static constexpr int kCount = kLanes / kEach;
+    TVector v[kCount];
+
+    SALMA_INLINE void set(const COUNT* from) { std::memcpy(v, from, sizeof v); }
+    SALMA_INLINE void add(const COUNT* from) {
+        for (int i = 0; i < kCount; ++i) {
+            TVector other;
+            std::memcpy(&other, from + i * kEach, sizeof other);
+            v[i] += other;
+        }
+    }
+    SALMA_INLINE void subtract(const COUNT* from) {
+        for (int i = 0; i < kCount; ++i) {
+            TVector other;
+            std::memcpy(&other, from + i * kEach, sizeof other);
+            v[i] -= other;
+        }
+    }
+    SALMA_INLINE void store(COUNT* to) const { std::memcpy(to, v, sizeof v); }
+};
+
+/** The sums from which discsImpl puts discs together, for the centres of one row y. */
 template <class COUNT>
+struct TRowSums {
+    COUNT* rowPairs;  //!< Of row j: rows y+j and y-j.
+    COUNT* columns;   //!< Of h: rows y-h..y+h.
+    COUNT* squares;   //!< Of m: rows y-m..y+m.
+};
+
+template <class COUNT>
+SALMA_INLINE void sumRows(const TScaleTables& tables,
+                          const TPlanes<COUNT>& planes,
+                          int row,
+                          const TRowSums<COUNT>& sums) {
+    const int stride = planes.stride;
+    const int smallest = tables.innerSquare[static_cast<std::size_t>(tables.sMin)];
+    for (int j = smallest + 1; j <= tables.sMax; ++j)
+        add(sums.rowPairs + j * stride, planes.alongRow + (row + j) * stride,
+            planes.alongRow + (row - j) * stride, stride);
+    for (int h = 0; h <= tables.innerSquare.back(); ++h) {
+        const int below = (row + h + 1) * stride;
+        const int above = (row - h) * stride;
+        subtract(sums.columns + h * stride, planes.alongColumn + below, planes.alongColumn + above,
+                 stride);
+        subtract(sums.squares + h * stride, planes.square + below, planes.square + above, stride);
+    }
+}
+
+template <class COUNT, int WIDTH>
 SALMA_INLINE void discsImpl(
     const TScaleTables& tables, const TPlanes<COUNT>& planes, int row, COUNT* scratch, COUNT* out) {
     const int stride = planes.stride;
-    const int largest = tables.innerSquare.back();
-    const int smallest = tables.innerSquare[static_cast<std::size_t>(tables.sMin)];
-    COUNT* const rowPairs = scratch;                               // of row j: rows y+j and y-j
-    COUNT* const columns = rowPairs + (tables.sMax + 1) * stride;  // of h: rows y-h..y+h
-    COUNT* const squares = columns + (tables.sMax + 1) * stride;   // of m: rows y-m..y+m
-    for (int j = smallest + 1; j <= tables.sMax; ++j)
-        add(rowPairs + j * stride, planes.alongRow + (row + j) * stride,
-            planes.alongRow + (row - j) * stride, stride);
-    for (int h = 0; h <= largest; ++h) {
-        const int below = (row + h + 1) * stride;
-        const int above = (row - h) * stride;
-        subtract(columns + h * stride, planes.alongColumn + below, planes.alongColumn + above,
-                 stride);
-        subtract(squares + h * stride, planes.square + below, planes.square + above, stride);
-    }
+    const int third = (tables.sMax + 1) * stride;
+    const TRowSums<COUNT> sums{scratch, scratch + third, scratch + 2 * third};
+    sumRows(tables, planes, row, sums);
     for (int s = tables.sMin; s <= tables.sMax; ++s, out += kLanes) {
         const int m = tables.innerSquare[static_cast<std::size_t>(s)];
-        const COUNT* const square = squares + m * stride + tables.sMax;
-        COUNT sum[kLanes];
-        subtract(sum, square + m + 1, square - m, kLanes);
+        const COUNT* const square = sums.squares + m * stride + tables.sMax;
+        TRegisters<COUNT, WIDTH> disc;
+        disc.set(square + m + 1);
+        disc.subtract(square - m);
         for (const auto& outer : tables.outerRows[static_cast<std::size_t>(s)]) {
-            const COUNT* const pair = rowPairs + outer.j * stride + tables.sMax;
-            const COUNT* const column = columns + outer.half * stride + tables.sMax;
-            const COUNT* const right = pair + outer.half + 1;
-            const COUNT* const left = pair - outer.half;
-            for (int x = 0; x < kLanes; ++x)
-                sum[x] = static_cast<COUNT>(sum[x] + right[x] - left[x] + column[x + outer.j] +
-                                            column[x - outer.j]);
+            const COUNT* const pair = sums.rowPairs + outer.j * stride + tables.sMax;
+            const COUNT* const column = sums.columns + outer.half * stride + tables.sMax;
+            disc.add(pair + outer.half + 1);
+            disc.subtract(pair - outer.half);
+            disc.add(column + outer.j);
+            disc.add(column - outer.j);
         }
-        std::copy(sum, sum + kLanes, out);
+        disc.store(out);
     }
 }
 
@@ -84,11 +126,11 @@ SALMA_INLINE void accumulateImpl(const TScaleTables& tables,
 }
 
 // One pair of functions for each instruction set.
-#define SALMA_KERNELS(NAME, ATTRIBUTE)                                                       \
+#define SALMA_KERNELS(NAME, WIDTH, ATTRIBUTE)                                                \
     template <class COUNT>                                                                   \
     ATTRIBUTE void discs##NAME(const TScaleTables& tables, const TPlanes<COUNT>& p, int row, \
                                COUNT* scratch, COUNT* out) {                                 \
-        discsImpl(tables, p, row, scratch, out);                                             \
+        discsImpl<COUNT, WIDTH>(tables, p, row, scratch, out);                               \
     }                                                                                        \
     template <class COUNT>                                                                   \
     ATTRIBUTE void accumulate##NAME(const TScaleTables& t, const COUNT* discs,               \
@@ -96,10 +138,10 @@ SALMA_INLINE void accumulateImpl(const TScaleTables& tables,
         accumulateImpl(t, discs, counts, stride, sums);                                      \
     }
 
-SALMA_KERNELS(Baseline, )
+SALMA_KERNELS(Baseline, 16, )
 #ifdef SALMA_X86
-SALMA_KERNELS(Avx2, [[gnu::target("avx2")]])
-SALMA_KERNELS(Avx512, [[gnu::target("avx512bw,avx512vl,prefer-vector-width=512")]])
+SALMA_KERNELS(Avx2, 32, [[gnu::target("avx2")]])
+SALMA_KERNELS(Avx512, 64, [[gnu::target("avx512bw,avx512vl,prefer-vector-width=512")]])
 #endif
 
 }  // namespace
