@@ -77,14 +77,25 @@ TRelativeError relativeError(const TPairs& pairs,
     return {translation.figures(), rotation.figures()};
 }
 
-bool positive(double value) { return value > 0 && std::isfinite(value); }
+void requirePositive(const std::string& key, double value) {
+    if (!(value > 0 && std::isfinite(value)))
+        throw std::invalid_argument(key + " = " + std::to_string(value) + " must be in (0, inf)");
+}
 
 }  // namespace
 
+void TScoreOptions::visit(config::COptionVisitor& v) {
+    v.number("max_gap_s", maxGap, config::moreThan(0),
+             "longest gap between two reference poses that is interpolated over");
+    v.number("delta_m", deltaMetres, config::moreThan(0),
+             "distance on the reference that relative errors span");
+    v.number("delta_s", deltaSeconds, config::moreThan(0), "time that relative errors span");
+}
+
 void TScoreOptions::validate() const {
-    if (!positive(maxGap)) throw std::invalid_argument("max gap must be > 0 s");
-    if (!positive(deltaMetres)) throw std::invalid_argument("delta must be > 0 m");
-    if (!positive(deltaSeconds)) throw std::invalid_argument("delta must be > 0 s");
+    requirePositive("max_gap_s", maxGap);
+    requirePositive("delta_m", deltaMetres);
+    requirePositive("delta_s", deltaSeconds);
 }
 
 bool interpolate(const TTrajectory& trajectory, double t, double maxGap, CPose2D& pose) {

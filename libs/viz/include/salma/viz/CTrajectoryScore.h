@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <salma/config/TStrictOptions.h>
 #include <salma/viz/TTrajectory.h>
 
 #include <cstddef>
@@ -8,11 +9,12 @@
 
 namespace salma::viz {
 
-struct TScoreOptions {
+struct TScoreOptions : public config::TStrictOptions<TScoreOptions> {
     double maxGap{0.5};      //!< Longest gap between two reference poses to interpolate over [s].
     double deltaMetres{1};   //!< Distance on the reference that relative errors span [m].
     double deltaSeconds{1};  //!< Time that relative errors span [s].
 
+    void visit(config::COptionVisitor& v);
     /// \throw std::invalid_argument unless each is positive and finite.
     void validate() const;
 };
