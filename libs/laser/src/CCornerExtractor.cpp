@@ -76,6 +76,23 @@ double largestSigma(const Eigen::Matrix2d& covariance) {
     return std::sqrt(eigen.eigenvalues()[1]);
 }
 
+/// The edge of a wall: between its last point and the beam that passes it.
+TCorner edgeOf(const TLine& line, const mrpt::math::TPoint2D& end, const TLineResult& scan) {
+    const Eigen::Vector2d last = asVector(end);
+    const Eigen::Vector2d outward =
+        (2 * last - asVector(line.from) - asVector(line.to)).normalized();
+    const double step = spacing(line, last, scan);
+    const Eigen::Vector2d p = last + 0.5 * step * outward;
+    const Eigen::Vector2d normal(std::cos(line.alpha), std::sin(line.alpha));
+    const Eigen::Vector2d J(1, p.x() * normal.y() - p.y() * normal.x());
+    TCorner corner;
+    corner.position = {p.x(), p.y()};
+    corner.convex = true;
+    corner.covariance = step * step / 12 * outward * outward.transpose() +
+                        J.dot(line.covariance * J) * normal * normal.transpose();
+    return corner;
+}
+
 }  // namespace
 
 void TCornerOptions::visit(config::COptionVisitor& v) {
@@ -88,6 +105,7 @@ void TCornerOptions::visit(config::COptionVisitor& v) {
     v.number("long_side_m", longSide, moreThan(0), "one of the two walls is at least this long");
     v.integer("short_side_points", shortSidePoints, atLeast(3),
               "each wall has at least this many points");
+    v.flag("line_ends", lineEnds, "also edges of walls before a depth jump");
     v.number("max_sigma_m", maxSigma, moreThan(0), "less certain corners are refused");
     v.number("sigma_floor_m", sigmaFloor, atLeast(0), "added in quadrature to the covariance");
 }
@@ -104,36 +122,44 @@ CCornerExtractor::CCornerExtractor(const TCornerOptions& options) : m_options(op
     m_options.validate();
 }
 
+void CCornerExtractor::add(TCorner corner, TCornerResult& result) const {
+    corner.covariance += m_options.sigmaFloor * m_options.sigmaFloor * Eigen::Matrix2d::Identity();
+    if (largestSigma(corner.covariance) <= m_options.maxSigma)
+        result.corners.push_back(corner);
+    else
+        ++result.refusedUncertain;
+}
+
+void CCornerExtractor::addLineEnds(const TLineResult& lines, TCornerResult& result) const {
+    for (std::size_t i = 0; i < lines.lines.size(); ++i) {
+        const TLine& line = lines.lines[i];
+        if (!(line.length() >= m_options.longSide)) continue;
+        if (lines.freeEnds[i].from) add(edgeOf(line, line.from, lines), result);
+        if (lines.freeEnds[i].to) add(edgeOf(line, line.to, lines), result);
+    }
+}
+
 TCornerResult CCornerExtractor::extract(const TLineResult& lines) const {
     TCornerResult result;
     for (std::size_t i = 1; i < lines.lines.size(); ++i) {
         const TLine& a = lines.lines[i - 1];
         const TLine& b = lines.lines[i];
-        // sine of the turn from a to b; both are walked counter-clockwise, the robot on the left
-        const double turn = std::sin(b.alpha - a.alpha);
-        if (!(std::abs(turn) >= std::sin(m_options.minAngle))) {
+        if (!(std::abs(std::sin(b.alpha - a.alpha)) >= std::sin(m_options.minAngle))) {
             ++result.refusedAngle;
-            continue;
-        }
-        if (!endsMeet(a, b, lines, m_options)) {
+        } else if (!endsMeet(a, b, lines, m_options)) {
             ++result.refusedApart;
-            continue;
-        }
-        if (!supported(a, b, m_options)) {
+        } else if (!supported(a, b, m_options)) {
             ++result.refusedSupport;
-            continue;
+        } else {
+            TCorner corner = intersect(a, b);
+            // walked counter-clockwise, with the robot on the left, the way turns right at an edge
+            const mrpt::math::TPoint2D before = a.to - a.from;
+            const mrpt::math::TPoint2D after = b.to - b.from;
+            corner.convex = before.x * after.y - before.y * after.x < 0;
+            add(corner, result);
         }
-        TCorner corner = intersect(a, b);
-        corner.covariance +=
-            m_options.sigmaFloor * m_options.sigmaFloor * Eigen::Matrix2d::Identity();
-        const Eigen::Vector2d along1 = asVector(a.to) - asVector(a.from);
-        const Eigen::Vector2d along2 = asVector(b.to) - asVector(b.from);
-        corner.convex = along1.x() * along2.y() - along1.y() * along2.x() < 0;
-        if (largestSigma(corner.covariance) <= m_options.maxSigma)
-            result.corners.push_back(corner);
-        else
-            ++result.refusedUncertain;
     }
+    if (m_options.lineEnds) addLineEnds(lines, result);
     return result;
 }
 

@@ -10,8 +10,12 @@
 namespace salma::laser {
 namespace {
 
-constexpr double kEndResidual = 0.01;  // an end point farther off than this (and 3 sigma) goes [m]
+constexpr double kRoughness = 0.012;  // walls are no flatter than this [m]
+constexpr double kSigmas = 4;         // points of a line lie within so many sigma, or kRoughness
+constexpr double kEndSigmas = 3;      // at its ends, where another wall begins
+constexpr double kEndRoughness = 0.01;
 constexpr int kRegrowths = 6;
+constexpr double kJump = 0.3;  // beams that go on by this much have passed a wall's edge [m]
 
 using Members = std::vector<std::size_t>;
 
@@ -21,7 +25,7 @@ class CSearch {
     CSearch(const TLineOptions& options, const std::vector<TBeam>& beams, const TBeamNoise& noise)
         : m_options(options), m_beams(beams), m_noise(noise), m_free(beams.size()) {
         for (std::size_t i = 0; i < beams.size(); ++i) m_free[i] = beams[i].valid();
-        m_inlier = std::max(options.inlier, 3 * noise.range);
+        m_inlier = std::max(options.inlier, kSigmas * noise.range);
         m_random.seed(static_cast<std::uint32_t>(options.seed));
     }
 
@@ -44,7 +48,8 @@ class CSearch {
     /// Drops end points that rather belong to a neighbouring wall, and fits what is left.
     bool finish(TFit& fit, Members& members) const {
         const auto alien = [&](std::size_t i) {
-            const double limit = std::max(kEndResidual, 3 * fit.sigma(m_beams[i], m_noise));
+            const double limit =
+                std::max(kEndRoughness, kEndSigmas * fit.sigma(m_beams[i], m_noise));
             return std::abs(fit.distance(m_beams[i])) > limit;
         };
         while (!members.empty() && alien(members.back())) members.pop_back();
@@ -65,6 +70,7 @@ class CSearch {
         for (std::size_t i = 0; i < m_free.size(); ++i)
             if (m_free[i]) candidates.push_back(i);
         Members best;
+        double bestScore = 0;
         if (candidates.size() < static_cast<std::size_t>(m_options.minPoints)) return best;
         const auto samples = static_cast<std::size_t>(m_options.hypotheses);
         for (std::size_t h = 0; h < samples; ++h) {
@@ -76,7 +82,9 @@ class CSearch {
             const auto hypothesis = lineThrough(m_beams[i], m_beams[j]);
             if (!hypothesis) continue;
             Members members = grow(*hypothesis, i);
-            if (members.size() <= best.size()) continue;
+            const double score = support(*hypothesis, members);
+            if (!(score > bestScore)) continue;
+            bestScore = score;
             best.swap(members);
             fit = *hypothesis;
         }
@@ -93,8 +101,23 @@ class CSearch {
         return members;
     }
 
+    /// How far a point may lie off: less on walls seen at a slant, whose points are exact.
+    double tolerance(const TFit& fit, std::size_t i) const {
+        return std::min(m_inlier, std::max(kRoughness, kSigmas * fit.sigma(m_beams[i], m_noise)));
+    }
+
     bool fits(const TFit& fit, std::size_t i) const {
-        return m_free[i] && std::abs(fit.distance(m_beams[i])) <= m_inlier;
+        return m_free[i] && std::abs(fit.distance(m_beams[i])) <= tolerance(fit, i);
+    }
+
+    /// Number of points, each counting less the farther it lies off.
+    double support(const TFit& fit, const Members& members) const {
+        double sum = 0;
+        for (const std::size_t i : members) {
+            const double d = fit.distance(m_beams[i]) / tolerance(fit, i);
+            sum += 1 - d * d;
+        }
+        return sum;
     }
 
     void extend(const TFit& fit, std::size_t seed, int step, Members& members) const {
@@ -154,6 +177,12 @@ TLine asLine(const TFit& fit, const std::vector<TBeam>& beams, const Members& me
     return line;
 }
 
+/// True if beam i, beside the end of the line, meets something clearly behind the line.
+bool passes(const TFit& fit, const std::vector<TBeam>& beams, std::size_t i) {
+    if (i >= beams.size() || !beams[i].valid()) return false;
+    return fit.distance(beams[i]) > kJump;
+}
+
 }  // namespace
 
 void TLineOptions::visit(config::COptionVisitor& v) {
@@ -182,7 +211,12 @@ TLineResult CLineExtractor::extract(const mrpt::obs::CObservation2DRangeScan& sc
     CSearch search(m_options, beams, noiseOf(m_options, scan));
     const mrpt::poses::CPose2D T_r_s(result.sensor.x, result.sensor.y, 0);
     result.loosePoints = result.validPoints;
-    std::vector<std::pair<std::size_t, TLine>> found;
+    struct TFound {
+        std::size_t first;
+        TLine line;
+        TFreeEnds ends;
+    };
+    std::vector<TFound> found;
     TFit fit;
     for (Members run = search.next(fit); !run.empty(); run = search.next(fit)) {
         Members members = run;
@@ -199,11 +233,16 @@ TLineResult CLineExtractor::extract(const mrpt::obs::CObservation2DRangeScan& sc
             continue;
         }
         result.loosePoints -= members.size();
-        found.emplace_back(members.front(), transformed(line, T_r_s));
+        const TFreeEnds ends{passes(fit, beams, members.front() - 1),  // wraps below 0
+                             passes(fit, beams, members.back() + 1)};
+        found.push_back({members.front(), transformed(line, T_r_s), ends});
     }
     std::sort(found.begin(), found.end(),
-              [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (const auto& line : found) result.lines.push_back(line.second);
+              [](const TFound& a, const TFound& b) { return a.first < b.first; });
+    for (const TFound& f : found) {
+        result.lines.push_back(f.line);
+        result.freeEnds.push_back(f.ends);
+    }
     return result;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fitLine.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 
 namespace salma::laser {

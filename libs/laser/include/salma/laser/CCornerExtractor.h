@@ -16,10 +16,11 @@ struct TCornerOptions : public config::TStrictOptions<TCornerOptions> {
                                          //!< beside one beam spacing [m].
     double maxEndDistance{0.25};         //!< Limit of that sum [m].
     int maxMissingBeams{2};              //!< Beams between the two ends that lie on neither wall.
-    double longSide{0.4};                //!< One of the two walls is at least this long [m].
-    int shortSidePoints{5};              //!< The other has at least this many points.
-    double maxSigma{0.08};               //!< Corners less sure than this are refused [m].
-    double sigmaFloor{0.02};             //!< Added in quadrature: rounded edges, skirting [m].
+    double longSide{0.5};                //!< One of the two walls is at least this long [m].
+    int shortSidePoints{4};              //!< The other has at least this many points.
+    bool lineEnds{false};  //!< Also where a wall of `long_side_m` ends and the view goes on behind.
+    double maxSigma{0.08};    //!< Corners less sure than this are refused [m].
+    double sigmaFloor{0.01};  //!< Added in quadrature: rounded edges, skirting [m].
 
     void visit(config::COptionVisitor& v);
     void validate() const;
@@ -27,7 +28,8 @@ struct TCornerOptions : public config::TStrictOptions<TCornerOptions> {
 
 /// Corners, and why neighbouring lines did not make one.
 struct TCornerResult {
-    std::vector<TCorner> corners;     //!< Robot frame, counter-clockwise as the scan sees them.
+    std::vector<TCorner> corners;     //!< Robot frame, counter-clockwise as the scan sees them;
+                                      //!< ends of lines, if wanted, come last.
     std::size_t refusedAngle{0};      //!< Nearly parallel.
     std::size_t refusedApart{0};      //!< Ends that do not meet: openings and depth jumps.
     std::size_t refusedSupport{0};    //!< Both walls short, or too few points.
@@ -36,10 +38,11 @@ struct TCornerResult {
 
 /** Corners where two neighbouring lines of a scan meet, as landmarks for geometry alone.
  *
- * A corner is the intersection of both lines, never a line's end: an end moves with the viewpoint.
- * Where a wall ends in a depth jump, nothing is returned. The covariance is propagated from both
- * lines and widened by the floor. A jamb of 0.12 m is a corner only where its face holds enough
- * points: with 0.5 deg between beams up to about 1.2 m from the wall, with 0.25 deg up to 2 m.
+ * A corner is the intersection of both lines, not an end of one. With `line_ends` the edge of a
+ * wall before a depth jump counts too, as convex: half a beam spacing beyond the last point, and as
+ * uncertain along the wall as the spacing is. The covariance is propagated from both lines and
+ * widened by the floor. The face of a door jamb of 0.12 m holds the four points that it needs only
+ * near by: with 0.5 deg between beams most jambs come out within 2 m, none beyond 4 m.
  * Source: own. */
 class CCornerExtractor {
  public:
@@ -52,6 +55,9 @@ class CCornerExtractor {
     const TCornerOptions& options() const { return m_options; }
 
  private:
+    void add(TCorner corner, TCornerResult& result) const;
+    void addLineEnds(const TLineResult& lines, TCornerResult& result) const;
+
     TCornerOptions m_options;
 };
 

@@ -14,8 +14,8 @@ namespace salma::laser {
 struct TLineOptions : public config::TStrictOptions<TLineOptions> {
     double inlier{0.025};       //!< Points this near belong to a line [m].
     double gap{0.25};           //!< A hole longer than this along a line splits it [m].
-    double minLength{0.08};     //!< Shorter pieces are refused: a door jamb is 0.12 [m].
-    int minPoints{5};           //!< Pieces with fewer points are refused.
+    double minLength{0.05};     //!< Shorter pieces are refused; a door jamb is 0.12 [m].
+    int minPoints{4};           //!< Pieces with fewer points are refused.
     int hypotheses{100};        //!< RANSAC samples for each line.
     int window{20};             //!< The two points of a sample are at most this many beams apart.
     double maxRange{20};        //!< Longer ranges are not used [m].
@@ -27,17 +27,24 @@ struct TLineOptions : public config::TStrictOptions<TLineOptions> {
     void visit(config::COptionVisitor& v);
 };
 
+/// Which ends of a line are edges of the wall itself: the next beam passes and goes on farther.
+struct TFreeEnds {
+    bool from{false};
+    bool to{false};
+};
+
 /// Lines, and what became of the other points.
 struct TLineResult {
-    std::vector<TLine> lines;      //!< Robot frame, in counter-clockwise order of their `from`.
-    std::size_t validPoints{0};    //!< Readings that were used.
-    std::size_t invalidPoints{0};  //!< Readings marked invalid, not finite, zero or too long.
-    std::size_t loosePoints{0};    //!< Used readings that lie on no line.
-    std::size_t refusedPoints{0};  //!< Pieces with fewer points than `min_points`.
-    std::size_t refusedShort{0};   //!< Pieces shorter than `min_length_m`.
-    bool tilted{false};            //!< The scanner is not level within 10 deg: nothing extracted.
-    mrpt::math::TPoint2D sensor;   //!< Where the scanner stands in the robot frame [m].
-    double beamStep{0};            //!< Angle between neighbouring beams [rad].
+    std::vector<TLine> lines;         //!< Robot frame, in counter-clockwise order of their `from`.
+    std::vector<TFreeEnds> freeEnds;  //!< Of each line.
+    std::size_t validPoints{0};       //!< Readings that were used.
+    std::size_t invalidPoints{0};     //!< Readings marked invalid, not finite, zero or too long.
+    std::size_t loosePoints{0};       //!< Used readings that lie on no line.
+    std::size_t refusedPoints{0};     //!< Pieces with fewer points than `min_points`.
+    std::size_t refusedShort{0};      //!< Pieces shorter than `min_length_m`.
+    bool tilted{false};           //!< The scanner is not level within 10 deg: nothing extracted.
+    mrpt::math::TPoint2D sensor;  //!< Where the scanner stands in the robot frame [m].
+    double beamStep{0};           //!< Angle between neighbouring beams [rad].
 };
 
 /** Straight pieces of wall in one scan of a level 2-D laser.
