@@ -75,13 +75,13 @@ std::vector<TStableRegion> CStableRegions::detect(const cv::Mat& grey) const {
                                        m_options.maxVariation, m_options.minDiversity);
     // OpenCV does not tell the polarity, but can be asked for its second pass alone: bright ones.
     mser->setPass2Only(true);
+    cv::Mat negative;
+    cv::bitwise_not(grey, negative);
     std::vector<TStableRegion> regions;
     for (const TPolarity polarity : {TPolarity::DarkOnBright, TPolarity::BrightOnDark}) {
-        cv::Mat picture = grey;
-        if (polarity == TPolarity::DarkOnBright) cv::bitwise_not(grey, picture);
         std::vector<std::vector<cv::Point>> pixels;
         std::vector<cv::Rect> boxes;
-        mser->detectRegions(picture, pixels, boxes);
+        mser->detectRegions(polarity == TPolarity::DarkOnBright ? negative : grey, pixels, boxes);
         const auto first = static_cast<std::ptrdiff_t>(regions.size());
         for (auto& p : pixels) regions.push_back(describe(grey, std::move(p), polarity));
         std::sort(regions.begin() + first, regions.end(), [](const auto& a, const auto& b) {

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <salma/saliency/regionFiles.h>
+
+#include <random>
+#include <stdexcept>
+
+#include "CTemporaryFolder.h"
+
+namespace salma::saliency {
+namespace {
+
+using salma::test::readFile;
+
+const salma::test::CTemporaryFolder& folder() {
+    static const salma::test::CTemporaryFolder theFolder;
+    return theFolder;
+}
+
+/// What readVgg says about a file of this content; "" if it takes it.
+std::string complaint(const std::string& content) {
+    try {
+        readVgg(folder().write("broken.vgg", content));
+        return "";
+    } catch (const std::runtime_error& e) {
+        const std::string text = e.what();
+        EXPECT_EQ(text.find((folder() / "broken.vgg").string()), 0u) << text;
+        return text.substr(text.find("broken.vgg"));
+    }
+}
+
+TEST(regionFiles, WriteRegionsAsTheBenchmarkReadsThem) {
+    const std::string file = (folder() / "two.vgg").string();
+    writeVgg(file, {ellipseOf({12, 34.5, 4, 1, 1, 1}), {1, 2, 0.5, -0.25, 0.75}});
+    EXPECT_EQ(readFile(file), "1.0\n2\n12 34.5 0.0625 0 0.0625\n1 2 0.5 -0.25 0.75\n");
+}
+
+TEST(regionFiles, ReadBackWhatTheyWrote) {
+    const std::string file = (folder() / "back.vgg").string();
+    for (const std::size_t count : {0u, 1u, 100u}) {
+        std::vector<TEllipse> regions;
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto k = static_cast<double>(i);
+            regions.push_back({k / 3, k / 7, 1 / (k + 3), 0.1 / (k + 9), 1 / (k + 5)});
+        }
+        writeVgg(file, regions);
+        const auto back = readVgg(file);
+        ASSERT_EQ(back.size(), count);
+        for (std::size_t i = 0; i < count; ++i) {
+            EXPECT_NEAR(back[i].u, regions[i].u, 1e-7);
+            EXPECT_NEAR(back[i].b, regions[i].b, 1e-9);
+            EXPECT_NEAR(back[i].c, regions[i].c, 1e-9);
+        }
+    }
+}
+
+TEST(regionFiles, NameFileLineAndMistake) {
+    EXPECT_EQ(complaint(""), "broken.vgg:0: file ends before the descriptor length 1.0");
+    EXPECT_EQ(complaint("128\n0\n"), "broken.vgg:1: descriptor length is not 1.0");
+    EXPECT_EQ(complaint("1.0\n"), "broken.vgg:1: file ends before the number of regions");
+    EXPECT_EQ(complaint("1.0\n-1\n"),
+              "broken.vgg:2: number of regions is not a whole number from 0 to 1e9");
+    EXPECT_EQ(complaint("1.0\n1\n1 2 3 0 x3\n"), "broken.vgg:3: 'x3' is not a finite number");
+    EXPECT_EQ(complaint("1.0\n1\n1 nan 3 0 3\n"), "broken.vgg:3: 'nan' is not a finite number");
+    EXPECT_EQ(complaint("1.0\n1\n1 2 3 0\n"), "broken.vgg:3: expected 5 numbers, got 4");
+    EXPECT_EQ(complaint("1.0\n1\n1 2 1 2 1\n"), "broken.vgg:3: a, b, c are not an ellipse");
+    EXPECT_EQ(complaint("1.0\n2\n1 2 1 0 1\n"), "broken.vgg:3: file ends after 1 of 2 regions");
+    EXPECT_EQ(complaint("1.0\n0\n1 2 1 0 1\n"), "broken.vgg:3: more regions than the 0 announced");
+    EXPECT_THROW(readVgg((folder() / "missing.vgg").string()), std::runtime_error);
+}
+
+TEST(regionFiles, EitherReadOrNameTheLineOfAnyBrokenFile) {
+    const std::string whole = "1.0\n3\n1 2 0.5 0.1 0.5\n3 4 1e-2 0 1e-2\n5.5 6 2 -1 2\n";
+    std::mt19937 random(11);
+    for (int i = 0; i < 500; ++i) {
+        std::string text = whole.substr(0, i % 3 == 0 ? random() % whole.size() : whole.size());
+        for (std::size_t k = 0; k < 1 + random() % 4 && !text.empty(); ++k)
+            text[random() % text.size()] = static_cast<char>(random() % 256);
+        std::size_t line = 0;
+        const std::string said = complaint(text);
+        if (said.empty()) continue;
+        ASSERT_EQ(std::sscanf(said.c_str(), "broken.vgg:%zu: ", &line), 1) << said;
+    }
+}
+
+TEST(regionFiles, WriteTablesWithUnitsInTheirColumns) {
+    const std::string file = (folder() / "table.csv").string();
+    writeRegionsCsv(file, std::vector<observations::TSalientRegion>{{10, 20, 5, 2.5, 0.75, 1.875}});
+    EXPECT_EQ(readFile(file),
+              "x_px,y_px,scale_px,entropy,interscale,saliency\n10,20,5,2.5,0.75,1.875\n");
+    TStableRegion stable;
+    stable.ellipse = {10, 20, 0.25, 0, 0.25};
+    stable.pixels.resize(13);
+    stable.meanGrey = 40.5;
+    writeRegionsCsv(file, std::vector<TStableRegion>{stable});
+    EXPECT_EQ(readFile(file),
+              "x_px,y_px,scale_px,entropy,interscale,saliency,area_px2,mean_grey,polarity\n"
+              "10,20,2,,,,13,40.5,dark\n");
+}
+
+TEST(regionFiles, SayWhereTheyCannotWrite) {
+    const std::string file = (folder() / "no/such/folder.vgg").string();
+    EXPECT_THROW(writeVgg(file, {}), std::runtime_error);
+    EXPECT_THROW(writeRegionsCsv(file, std::vector<TStableRegion>()), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace salma::saliency
