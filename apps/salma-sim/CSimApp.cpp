@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CSimApp.h"
+
+#include <COutputFolder.h>
+#include <CProgressBar.h>
+#include <runProgram.h>
+#include <salma/simulator/CSimulator.h>
+
+#include <iomanip>
+#include <iostream>
+#include <map>
+#include <opencv2/core/utility.hpp>
+
+namespace salma::apps {
+
+using simulator::EOdometryNoise;
+using simulator::EPictureSize;
+
+namespace {
+
+constexpr auto kExamples =
+    "  salma-sim share/worlds/hallway-loop.ini --out out/hallway\n"
+    "  salma-sim share/worlds/hallway-loop.ini --out out/high --seed 7 --laps 3 "
+    "--odometry-noise high --camera attend";
+
+const std::map<std::string, EOdometryNoise> kNoise = {{"low", EOdometryNoise::low},
+                                                      {"medium", EOdometryNoise::medium},
+                                                      {"high", EOdometryNoise::high}};
+const std::map<std::string, EPictureSize> kSizes = {{"768x492", EPictureSize::evi768x492},
+                                                    {"640x480", EPictureSize::vga640x480}};
+
+template <class ENUM>
+std::vector<std::string> namesOf(const std::map<std::string, ENUM>& all) {
+    std::vector<std::string> names;
+    for (const auto& entry : all) names.push_back(entry.first);
+    return names;
+}
+
+void report(const simulator::TSimulationSummary& s, const std::string& out) {
+    std::cout << std::fixed << std::setprecision(1) << "drove " << s.duration
+              << " s: " << s.pictures << " pictures, " << s.scans << " scans, " << s.odometryRecords
+              << " odometry and " << s.panTiltRecords << " pan/tilt records\n"
+              << std::setprecision(2) << "raw odometry ends " << s.odometryMiss
+              << " m from the truth; laser offset " << std::setprecision(1) << s.laserOffset * 1000
+              << " mm\n"
+              << "written to " << out << "\n";
+}
+
+}  // namespace
+
+int CSimApp::run(int argc, char** argv) {
+    CLI::App app("Drives a robot through WORLD.ini and writes its rawlog with pictures and truth.",
+                 "salma-sim");
+    app.add_option("WORLD", m_worldFile, "World file (ini)")->required();
+    auto* out = app.add_option("--out", m_out, "Folder for the results; replaced as a whole");
+    app.add_option("--seed", m_seed, "Seed of all noise; same seed, same bytes")
+        ->capture_default_str();
+    app.add_option("--laps", m_laps, "Laps instead of the world file's")->check(CLI::Range(1, 100));
+    app.add_option("--odometry-noise", m_odometryNoise, "low, medium or high")
+        ->check(CLI::IsMember(namesOf(kNoise)));
+    app.add_option("--camera", m_camera, "fixed:DEG, sweep or attend");
+    app.add_option("--picture-size", m_pictureSize, "768x492 or 640x480")
+        ->check(CLI::IsMember(namesOf(kSizes)));
+    app.add_option("--threads", m_threads, "Threads that render; the result is the same")
+        ->check(CLI::Range(1, 256))
+        ->capture_default_str();
+    auto* print =
+        app.add_flag("--print-config", m_printConfig, "Print the effective world and end");
+    out->excludes(print);
+    return runProgram(app, kExamples, argc, argv, [&] {
+        if (m_printConfig)
+            std::cout << simulator::asIni(effectiveWorld());
+        else
+            simulate();
+    });
+}
+
+simulator::TWorld CSimApp::effectiveWorld() const {
+    simulator::TWorld world = simulator::loadWorld(m_worldFile);
+    if (m_laps) world.path.laps = *m_laps;
+    if (!m_odometryNoise.empty()) world.odometry.level = kNoise.at(m_odometryNoise);
+    if (!m_camera.empty()) world.head.mode = m_camera;
+    if (!m_pictureSize.empty()) world.camera.size = kSizes.at(m_pictureSize);
+    world.path.validate();
+    world.head.validate();
+    return world;
+}
+
+void CSimApp::simulate() const {
+    if (m_out.empty())
+        throw std::invalid_argument("--out is missing: name a folder for the results");
+    cv::setNumThreads(1);  // the threads that render are ours
+    const auto world = effectiveWorld();
+    COutputFolder out(m_out);
+    simulator::CSimulator simulator(world, {m_seed, m_threads});
+    CProgressBar bar("rendering", simulator.pictureCount());
+    const auto summary = simulator.run(out.path(), [&bar] { bar.step(); });
+    out.publish();
+    report(summary, m_out);
+}
+
+}  // namespace salma::apps

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/obs/CObservation.h>
+#include <salma/observations/CObservationPanTilt.h>
+#include <salma/simulator/CHeadPlan.h>
+#include <salma/simulator/CImageSensor.h>
+#include <salma/simulator/CLaserModel.h>
+#include <salma/simulator/COdometryModel.h>
+
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+namespace salma::simulator {
+
+struct TSimulationOptions {
+    std::uint32_t seed{1};
+    int threads{1};  //!< That render pictures; the result does not depend on it.
+};
+
+/// A landmark seen at one instant; a row of NAME.sightings.csv.
+struct TSighting {
+    double stamp{0};  //!< Of the picture or scan [s since 1970].
+    int landmark{0};
+    double u{0}, v{0};  //!< Of a poster's centre [px]; NaN for a corner.
+    double range{0};    //!< From the robot's centre, in the plane [m].
+    double bearing{0};  //!< In the robot frame [rad].
+};
+
+/// What a run produced.
+struct TSimulationSummary {
+    double duration{0};  //!< [s]
+    std::size_t pictures{0}, scans{0}, odometryRecords{0}, panTiltRecords{0};
+    double odometryMiss{0};  //!< Distance of the raw odometry's end from the true end [m].
+    double laserOffset{0};   //!< Systematic error of the run's ranges [m].
+};
+
+/** Drives a robot through a world and writes what its sensors record, and the truth.
+ *
+ * Same world, options and seed: same bytes. Stamps count from a fixed instant, 1700000000 s. */
+class CSimulator {
+ public:
+    CSimulator(const TWorld& description, const TSimulationOptions& options);
+
+    std::size_t pictureCount() const { return m_head.pictureTimes().size(); }
+
+    /** Writes NAME.rawlog, NAME_Images/, NAME.gt.tum, NAME.landmarks.csv and NAME.sightings.csv to
+     * `folder`, which exists. \param onPicture Called after each picture, from several threads.
+     * \throw std::runtime_error if a file cannot be written. */
+    TSimulationSummary run(const std::filesystem::path& folder,
+                           const std::function<void()>& onPicture = {});
+
+    /// T_w_r [m, rad] `time` seconds after the start.
+    mrpt::math::TPose2D truePose(double time) const { return m_path.pose(time); }
+
+    /// T_w_c, optical frame.
+    mrpt::poses::CPose3D cameraPose(double time) const;
+
+    /// The picture taken at pictureTimes()[index], 8-bit BGR.
+    cv::Mat picture(std::size_t index) const;
+
+    /// Posters whose centre picture `index` shows, not hidden by anything.
+    std::vector<TSighting> sightingsInPicture(std::size_t index) const;
+
+    const CWorld& world() const { return m_world; }
+    const CCameraModel& camera() const { return m_camera; }
+
+ private:
+    using Records = std::vector<mrpt::obs::CObservation::Ptr>;
+
+    observations::CObservationPanTilt headState(double time) const;
+    double pictureTime(std::size_t index) const;
+    std::string pictureName(std::size_t index) const;
+    std::vector<double> instants(double rate,
+                                 double phase,
+                                 double jitter,
+                                 const char* purpose) const;
+    std::vector<TSighting> sightingsInScan(double time) const;
+    void addPictures(Records& records) const;
+    void addScans(Records& records, std::vector<TSighting>& sightings) const;
+    void addHeadStates(Records& records) const;
+    void addOdometry(Records& records, TSimulationSummary& summary) const;
+    void writePictures(const std::filesystem::path& folder,
+                       const std::function<void()>& onPicture) const;
+    void writePicture(const std::filesystem::path& folder, std::size_t index) const;
+
+    TWorld m_description;
+    TSimulationOptions m_options;
+    CWorld m_world;
+    CPath m_path;
+    CHeadPlan m_head;
+    CCameraModel m_camera;
+    CRenderer m_renderer;
+    CImageSensor m_sensor;
+    CLaserModel m_laser;
+};
+
+}  // namespace salma::simulator

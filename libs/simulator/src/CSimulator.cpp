@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <mrpt/core/Clock.h>
+#include <mrpt/core/bits_math.h>
+#include <mrpt/math/wrap2pi.h>
+#include <mrpt/obs/CObservationImage.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/poses/CPose2D.h>
+#include <salma/simulator/CSimulator.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <limits>
+#include <mutex>
+#include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
+#include <thread>
+
+#include "seeds.h"
+#include "truthFiles.h"
+
+namespace salma::simulator {
+
+using mrpt::math::TPose2D;
+using mrpt::poses::CPose3D;
+using observations::CObservationPanTilt;
+
+namespace {
+
+constexpr std::int64_t kEpoch = 1700000000;  // stamp of the start of every run [s since 1970]
+
+/// Times are whole microseconds, so that stamps survive every file format.
+double rounded(double time) { return std::round(time * 1e6) * 1e-6; }
+
+double stampOf(double time) { return static_cast<double>(kEpoch) + time; }
+
+mrpt::Clock::time_point clockTime(double time) {
+    constexpr std::int64_t from1601 = 116444736000000000;  // MRPT counts 100 ns from there
+    const auto microseconds = static_cast<std::int64_t>(std::llround(time * 1e6));
+    return mrpt::Clock::time_point(
+        mrpt::Clock::duration(from1601 + (kEpoch * 1000000 + microseconds) * 10));
+}
+
+CPose3D inSpace(const TPose2D& p) { return {p.x, p.y, 0, p.phi, 0, 0}; }
+
+TSighting seenFrom(const TPose2D& T_w_r, const TTrueLandmark& landmark, double stamp) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const double dx = landmark.centre.x() - T_w_r.x, dy = landmark.centre.y() - T_w_r.y;
+    return {stamp, landmark.id,        nan,
+            nan,   std::hypot(dx, dy), mrpt::math::wrapToPi(std::atan2(dy, dx) - T_w_r.phi)};
+}
+
+}  // namespace
+
+CSimulator::CSimulator(const TWorld& description, const TSimulationOptions& options)
+    : m_description(description),
+      m_options(options),
+      m_world(description),
+      m_path(description.path, options.seed),
+      m_head(description.head, m_path, m_world, options.seed),
+      m_camera(description.camera),
+      m_renderer(m_world, m_camera),
+      m_sensor(description.camera, m_camera, options.seed),
+      m_laser(description.laser, m_world, options.seed) {
+    if (!(m_options.threads >= 1))
+        throw std::invalid_argument("threads = " + std::to_string(m_options.threads) +
+                                    " is below 1");
+}
+
+CObservationPanTilt CSimulator::headState(double time) const {
+    const THeadOptions& head = m_description.head;
+    CObservationPanTilt state;
+    state.sensorLabel = "HEAD";
+    state.timestamp = clockTime(time);
+    state.pan = m_head.pan(time);
+    state.tilt = head.tilt;
+    state.basePose = CPose3D(head.x, 0, head.z, 0, 0, 0);
+    state.cameraOnHead = CPose3D(head.cameraForward, 0, 0, -M_PI / 2, 0, -M_PI / 2);
+    return state;
+}
+
+CPose3D CSimulator::cameraPose(double time) const {
+    return inSpace(truePose(time)) + headState(time).cameraPose();
+}
+
+double CSimulator::pictureTime(std::size_t index) const {
+    return rounded(m_head.pictureTimes()[index]);
+}
+
+std::string CSimulator::pictureName(std::size_t index) const {
+    char name[64];  // as rawlog-grabber names external pictures
+    std::snprintf(name, sizeof name, "CAMERA_%.6f.jpg",
+                  stampOf(rounded(pictureTime(index) + m_description.camera.latency)));
+    return name;
+}
+
+cv::Mat CSimulator::picture(std::size_t index) const {
+    const double time = pictureTime(index);
+    constexpr double h = 1e-3;
+    const CPose3D before = cameraPose(time - h), after = cameraPose(time + h);
+    const CPose3D moved = after - before;  // in the camera's own frame
+    const Eigen::Matrix3d turn = moved.getRotationMatrix().asEigen();
+    TCameraMotion motion;
+    motion.linear = Eigen::Vector3d(moved.x(), moved.y(), moved.z()) / (2 * h);
+    motion.angular = Eigen::Vector3d(turn(2, 1), turn(0, 2), turn(1, 0)) / (2 * h);
+    return m_sensor.develop(m_renderer.render(cameraPose(time)), motion, index);
+}
+
+void CSimulator::writePicture(const std::filesystem::path& folder, std::size_t index) const {
+    const auto file = (folder / pictureName(index)).string();
+    if (!cv::imwrite(file, picture(index),
+                     {cv::IMWRITE_JPEG_QUALITY, m_description.camera.jpegQuality}))
+        throw std::runtime_error(file + ": cannot be written");
+}
+
+void CSimulator::writePictures(const std::filesystem::path& folder,
+                               const std::function<void()>& onPicture) const {
+    std::filesystem::create_directories(folder);
+    std::atomic<std::size_t> next{0};
+    std::exception_ptr error;
+    std::mutex errorMutex;
+    const auto work = [&] {
+        try {
+            for (std::size_t i = next++; i < pictureCount(); i = next++) {
+                writePicture(folder, i);
+                if (onPicture) onPicture();
+            }
+        } catch (...) {
+            const std::lock_guard<std::mutex> lock(errorMutex);
+            error = std::current_exception();
+            next = pictureCount();
+        }
+    };
+    std::vector<std::thread> threads;
+    for (int i = 1; i < m_options.threads; ++i) threads.emplace_back(work);
+    work();
+    for (auto& thread : threads) thread.join();
+    if (error) std::rethrow_exception(error);
+}
+
+std::vector<TSighting> CSimulator::sightingsInPicture(std::size_t index) const {
+    const double time = pictureTime(index);
+    const CPose3D T_w_c = cameraPose(time);
+    const Eigen::Vector3d position(T_w_c.x(), T_w_c.y(), T_w_c.z());
+    const Eigen::Matrix3d toCamera = T_w_c.getRotationMatrix().asEigen().transpose();
+    std::vector<TSighting> seen;
+    for (const auto& landmark : m_world.landmarks()) {
+        if (landmark.kind != ETruthKind::salient) continue;
+        const Eigen::Vector3d normal(std::cos(landmark.yaw), std::sin(landmark.yaw), 0);
+        const auto pixel = m_camera.project(toCamera * (landmark.centre - position));
+        if (!pixel || !(normal.dot(position - landmark.centre) > 0) ||
+            !m_world.visible(position, landmark.centre))
+            continue;
+        seen.push_back(seenFrom(truePose(time), landmark,
+                                stampOf(rounded(time + m_description.camera.latency))));
+        seen.back().u = pixel->x();
+        seen.back().v = pixel->y();
+    }
+    return seen;
+}
+
+std::vector<TSighting> CSimulator::sightingsInScan(double time) const {
+    const TPose2D robot = truePose(time);
+    const TLaserOptions& laser = m_description.laser;
+    const Eigen::Vector3d origin(robot.x + laser.x * std::cos(robot.phi),
+                                 robot.y + laser.x * std::sin(robot.phi), laser.z);
+    std::vector<TSighting> seen;
+    for (const auto& landmark : m_world.landmarks()) {
+        if (landmark.kind != ETruthKind::corner) continue;
+        const Eigen::Vector3d ray = landmark.centre - origin;
+        const double bearing = mrpt::math::wrapToPi(std::atan2(ray.y(), ray.x()) - robot.phi);
+        if (ray.norm() <= laser.maxRange() && std::abs(bearing) <= laser.apertureAngle() / 2 &&
+            m_world.visible(origin, landmark.centre))
+            seen.push_back(seenFrom(robot, landmark, stampOf(time)));
+    }
+    return seen;
+}
+
+std::vector<double> CSimulator::instants(double rate,
+                                         double phase,
+                                         double jitter,
+                                         const char* purpose) const {
+    CRandom random(m_options.seed, purpose, 0);
+    std::vector<double> times;
+    for (int i = 0;; ++i) {
+        const double limit = 0.4 / rate;  // keeps them in order
+        const double shift = std::clamp(random.normal(jitter), -limit, limit);
+        const double time = rounded(std::max(0.0, (i + phase) / rate + shift));
+        if (!(time <= m_path.duration())) return times;
+        times.push_back(time);
+    }
+}
+
+void CSimulator::addPictures(Records& records) const {
+    for (std::size_t i = 0; i < pictureCount(); ++i) {
+        auto record = mrpt::obs::CObservationImage::Create();
+        record->sensorLabel = "CAMERA";
+        record->timestamp = clockTime(rounded(pictureTime(i) + m_description.camera.latency));
+        record->cameraPose = headState(pictureTime(i)).cameraPose();
+        record->cameraParams = m_camera.parameters();
+        record->image.setExternalStorage(pictureName(i));
+        records.push_back(record);
+    }
+}
+
+void CSimulator::addScans(Records& records, std::vector<TSighting>& sightings) const {
+    const TLaserOptions& laser = m_description.laser;
+    std::uint64_t index = 0;
+    for (const double time : instants(laser.rate, 0.37, laser.jitter, "scan times")) {
+        auto record =
+            mrpt::obs::CObservation2DRangeScan::Create(m_laser.scan(truePose(time), index++));
+        record->timestamp = clockTime(time);
+        records.push_back(record);
+        for (const auto& s : sightingsInScan(time)) sightings.push_back(s);
+    }
+}
+
+void CSimulator::addHeadStates(Records& records) const {
+    const THeadOptions& head = m_description.head;
+    for (const double time : instants(head.rate, 0.11, head.jitter, "head times"))
+        records.push_back(CObservationPanTilt::Create(headState(time)));
+}
+
+void CSimulator::addOdometry(Records& records, TSimulationSummary& summary) const {
+    const TOdometryOptions& options = m_description.odometry;
+    COdometryModel model(options, m_options.seed);
+    TPose2D start, truth, measured;
+    for (const double time : instants(options.rate, 0, options.jitter, "odometry times")) {
+        truth = truePose(time);
+        if (summary.odometryRecords++ == 0) start = truth;
+        measured = model.next(truth);
+        auto record = mrpt::obs::CObservationOdometry::Create();
+        record->sensorLabel = "ODOMETRY";
+        record->timestamp = clockTime(time);
+        record->odometry = mrpt::poses::CPose2D(measured);
+        records.push_back(record);
+    }
+    const auto moved = mrpt::poses::CPose2D(truth) - mrpt::poses::CPose2D(start);
+    summary.odometryMiss = std::hypot(moved.x() - measured.x, moved.y() - measured.y);
+}
+
+TSimulationSummary CSimulator::run(const std::filesystem::path& folder,
+                                   const std::function<void()>& onPicture) {
+    const auto file = [&](const std::string& ending) {
+        return folder / (m_description.name() + ending);
+    };
+    TSimulationSummary summary;
+    Records records;
+    std::vector<TSighting> sightings;
+    addOdometry(records, summary);
+    std::vector<TTruePose> truth;
+    for (const auto& r : records) {
+        const double stamp = mrpt::Clock::toDouble(r->timestamp);
+        truth.push_back({stamp, truePose(stamp - stampOf(0))});
+    }
+    addScans(records, sightings);
+    summary.scans = records.size() - summary.odometryRecords;
+    addHeadStates(records);
+    summary.panTiltRecords = records.size() - summary.odometryRecords - summary.scans;
+    addPictures(records);
+    summary.pictures = pictureCount();
+    for (std::size_t i = 0; i < pictureCount(); ++i)
+        for (const auto& s : sightingsInPicture(i)) sightings.push_back(s);
+    std::stable_sort(sightings.begin(), sightings.end(),
+                     [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
+
+    writePictures(file("_Images"), onPicture);
+    writeTrajectory(file(".gt.tum"), truth);
+    writeLandmarks(file(".landmarks.csv"), m_world.landmarks());
+    writeSightings(file(".sightings.csv"), sightings);
+    writeRawlog(file(".rawlog"), std::move(records));
+    summary.duration = m_path.duration();
+    summary.laserOffset = m_laser.offset();
+    return summary;
+}
+
+}  // namespace salma::simulator
