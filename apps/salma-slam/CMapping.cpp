@@ -116,8 +116,9 @@ void CMapping::keepPoints(const CObservation2DRangeScan& scan, slam::TRunRecord&
         if (!scan.getScanRangeValidity(i)) continue;
         const double angle = sign * scan.aperture * (static_cast<double>(i) / (n - 1) - 0.5);
         const double range = scan.getScanRange(i);
-        record.scanPoints.push_back(
-            T_w_l.composePoint({range * std::cos(angle), range * std::sin(angle)}));
+        mrpt::math::TPoint2D point;
+        T_w_l.composePoint({range * std::cos(angle), range * std::sin(angle)}, point);
+        record.scanPoints.push_back(point);
     }
 }
 

@@ -63,6 +63,23 @@ std::optional<int> findSide(const cv::Mat& change,
     return search.inside + step * static_cast<int>((i + last) / 2);
 }
 
+/// False if lines between both sides are much like them: then they are texture, not a border.
+bool standsOut(const cv::Mat& change,
+               cv::Range rows,
+               const std::array<int, 2>& sides,
+               const TBorderOptions& options) {
+    std::vector<double> inside;
+    const int step = std::max(1, (sides[1] - sides[0]) / 40);
+    for (int x = sides[0] + 4; x <= sides[1] - 4; x += step)
+        inside.push_back(lineContrast(change, x, rows, options.quantile));
+    if (inside.empty()) return false;
+    const auto middle = inside.begin() + static_cast<long>(inside.size() / 2);
+    std::nth_element(inside.begin(), middle, inside.end());
+    const double side = std::min(lineContrast(change, sides[0], rows, options.quantile),
+                                 lineContrast(change, sides[1], rows, options.quantile));
+    return side >= options.prominence * *middle;
+}
+
 int clampTo(double value, int size) {
     return std::clamp(static_cast<int>(std::lround(value)), 0, size - 1);
 }
@@ -83,7 +100,9 @@ std::optional<std::array<int, 2>> findPair(const cv::Mat& change,
                                  clampTo(start[1] + reach[0], change.cols)},
                                 options);
     if (!left || !right || !(*right - *left >= 4)) return std::nullopt;
-    return std::array<int, 2>{*left, *right};
+    const std::array<int, 2> sides{*left, *right};
+    if (!standsOut(change, rows, sides, options)) return std::nullopt;
+    return sides;
 }
 
 }  // namespace
@@ -98,6 +117,8 @@ void TBorderOptions::visit(config::COptionVisitor& v) {
              "grey levels per pixel that the rest of the side must change by");
     v.number("dominance", dominance, config::between(0, 1),
              "the nearest edge counts if it has this share of the best contrast");
+    v.number("prominence", prominence, config::atLeast(0),
+             "a side's contrast over that of lines between two sides");
 }
 
 CBorderFinder::CBorderFinder(const TBorderOptions& options) : m_options(options) {}

@@ -31,7 +31,7 @@ class CGroups {
         return i;
     }
     void join(std::size_t i, std::size_t j) {
-        const auto [a, b] = std::minmax(find(i), find(j));
+        const auto [a, b] = std::minmax({find(i), find(j)});
         m_parent[b] = a;
     }
 

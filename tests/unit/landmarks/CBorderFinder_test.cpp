@@ -21,7 +21,7 @@ struct TWall {
         cv::add(grey, noise, noisy, cv::noArray(), CV_8U);
         grey = noisy;
     }
-    cv::Mat noise{300, 400, CV_16S};
+    cv::Mat noise = cv::Mat(300, 400, CV_16S);
 };
 
 TEST(CBorderFinder, FindsAPosterFromASmallBoxInsideIt) {

@@ -22,6 +22,7 @@ TSelection select(const std::vector<TSalientRegion>& regions,
     options.yMin = 2;
     options.touch = 1;
     options.minRegions = 2;
+    options.lowest = 0.6;
     return CEntitySelector(options).select(regions, stable, walls);
 }
 

@@ -15,6 +15,7 @@ struct TBorderOptions : public config::TStrictOptions<TBorderOptions> {
     double quantile{0.35};  //!< This share of a side may lack contrast [-].
     double contrast{2.5};   //!< Grey levels per pixel that the rest of the side must change by.
     double dominance{0.5};  //!< The nearest edge counts if it has this share of the best contrast.
+    double prominence{1.5};  //!< A side's contrast over that of the lines between two sides.
 
     void visit(config::COptionVisitor& v);
 };
