@@ -36,7 +36,7 @@ std::optional<TConditionalInnovation> CJointInnovation::test(std::size_t observa
     const Eigen::LLT<Eigen::Matrix2d> factor(covariance);
     if (factor.info() != Eigen::Success) return {};
     result.factor = factor.matrixL();
-    const double determinant = result.factor.determinant();  // square root of |covariance|
+    const double determinant = result.factor.diagonal().prod();  // square root of |covariance|
     result.distance2 = factor.matrixL().solve(result.value).squaredNorm();
     result.logDensity = -0.5 * result.distance2 - std::log(2 * M_PI * determinant);
     if (!std::isfinite(result.logDensity)) return {};

@@ -8,7 +8,8 @@ namespace salma::association {
 /** Sequential compatibility nearest neighbour (SCNN): a nearest neighbour is kept only if it is
  * jointly compatible with the pairings before it, chi-square at `jointQuantile`.
  *
- * The nearest pair of all goes first. A measurement whose nearest free landmark fails the joint
+ * Measurements with the fewest possible pairings go first: a wrong pairing at the start would make
+ * the right ones look impossible. A measurement whose nearest free landmark fails the joint
  * test is not paired at all. Appearance is not looked at.
  * Source: Neira and Tardos, IEEE T-RA 17(6), 2001, section III; the order is ours. */
 class CSequentialCompatibility : public CDataAssociator {
