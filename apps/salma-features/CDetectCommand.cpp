@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CDetectCommand.h"
+
+#include <salma/config/CStrictFile.h>
+#include <salma/saliency/regionFiles.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <map>
+#include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
+
+#include "COutputFolder.h"
+#include "CProgressBar.h"
+#include "overlay.h"
+#include "readPicture.h"
+
+namespace salma::apps {
+namespace {
+
+constexpr auto kDescription = "Finds salient regions in pictures; colour is turned to grey.";
+constexpr auto kExamples =
+    "Examples:\n"
+    "  salma-features detect corridor.jpg --out out/features\n"
+    "  salma-features detect a.png b.png --detector mser --config config.ini --out out/mser\n\n";
+
+void writePicture(const std::string& file, const cv::Mat& picture) {
+    if (!cv::imwrite(file, picture)) throw std::runtime_error(file + ": cannot be written");
+}
+
+/// Results are named after the pictures. \throw std::invalid_argument if two have one name.
+void rejectEqualStems(const std::vector<std::string>& images) {
+    std::map<std::string, std::string> seen;
+    for (const auto& image : images) {
+        const auto [other, isNew] =
+            seen.emplace(std::filesystem::path(image).stem().string(), image);
+        if (!isNew)
+            throw std::invalid_argument(other->second + " and " + image +
+                                        ": results of both would be named " + other->first);
+    }
+}
+
+}  // namespace
+
+TDetectConfig TDetectConfig::load(const std::string& file) {
+    const auto ini = config::openStrict(file);
+    TDetectConfig loaded;
+    loaded.saliency.loadFromConfigFile(*ini, "saliency");
+    loaded.clustering.loadFromConfigFile(*ini, "clustering");
+    loaded.mser.loadFromConfigFile(*ini, "mser");
+    return loaded;
+}
+
+std::string TDetectConfig::asIni() const {
+    return saliency.asIni("saliency") + "\n" + clustering.asIni("clustering") + "\n" +
+           mser.asIni("mser");
+}
+
+CDetectCommand::CDetectCommand(CLI::App& app)
+    : m_command(app.add_subcommand("detect", kDescription)) {
+    m_command->add_option("IMAGE", m_images, "pictures; their names must differ");
+    m_command->add_option("--out", m_out, "folder for the results");
+    m_command->add_option("--config", m_configFile, "ini file: [saliency], [clustering], [mser]");
+    m_command->add_option("--detector", m_detector, "scale-saliency (default) or mser")
+        ->check(CLI::IsMember({"scale-saliency", "mser"}));
+    m_command->add_flag("--peaks", m_peaks, "write all entropy peaks too, before clustering");
+    m_command->add_option("--y-min", m_yMin, "least saliency of a region, in the detector's base")
+        ->check(CLI::NonNegativeNumber);
+    m_command->add_flag("--print-config", m_printConfig, "print every key in use, and stop");
+    // Examples belong to this command's own help, not to the list of commands.
+    m_command->preparse_callback(
+        [this](std::size_t) { m_command->description(std::string(kExamples) + kDescription); });
+    m_command->callback([this] { checkUsage(); });
+}
+
+void CDetectCommand::checkUsage() const {
+    if (m_printConfig) return;
+    if (m_images.empty()) throw CLI::RequiredError("IMAGE");
+    if (m_out.empty()) throw CLI::RequiredError("--out");
+    if (m_detector == "mser" && (m_peaks || m_command->count("--y-min") > 0))
+        throw CLI::ValidationError("--detector mser", "has no entropy peaks and no saliency");
+}
+
+void CDetectCommand::run(std::ostream& out) {
+    if (!m_configFile.empty()) m_config = TDetectConfig::load(m_configFile);
+    if (m_printConfig) {
+        out << m_config.asIni();
+        return;
+    }
+    rejectEqualStems(m_images);
+    COutputFolder folder(m_out);
+    {
+        CProgressBar progress("detecting", m_images.size());
+        for (const auto& image : m_images) {
+            const cv::Mat grey = readGrey(image);
+            const std::string stem = std::filesystem::path(image).stem().string();
+            const std::string prefix = folder / stem;
+            out << stem << ": " << grey.cols << "x" << grey.rows << ", "
+                << (m_detector == "mser" ? findStable(grey, prefix) : findSalient(grey, prefix))
+                << "\n";
+            progress.step();
+        }
+    }
+    folder.publishInto();
+}
+
+std::string CDetectCommand::findSalient(const cv::Mat& grey, const std::string& prefix) const {
+    const int window = 2 * m_config.saliency.scaleMax + 1;
+    const auto peaks = saliency::CScaleSaliency(m_config.saliency).detect(grey, m_yMin);
+    const auto clusters = saliency::CGreedyClusterer(m_config.clustering).cluster(peaks);
+    std::vector<saliency::TEllipse> discs;
+    std::transform(clusters.regions.begin(), clusters.regions.end(), std::back_inserter(discs),
+                   saliency::ellipseOf);
+    if (m_peaks) saliency::writeRegionsCsv(prefix + ".peaks.csv", peaks);
+    saliency::writeRegionsCsv(prefix + ".regions.csv", clusters.regions);
+    saliency::writeVgg(prefix + ".vgg", discs);
+    writePicture(prefix + ".overlay.png", drawOverlay(grey, clusters.regions));
+    std::string summary = std::to_string(peaks.size()) + " peaks, " +
+                          std::to_string(clusters.regions.size()) + " regions";
+    if (std::min(grey.rows, grey.cols) < window)
+        summary += " (smaller than the window of " + std::to_string(window) + " px)";
+    return summary;
+}
+
+std::string CDetectCommand::findStable(const cv::Mat& grey, const std::string& prefix) const {
+    const auto regions = saliency::CStableRegions(m_config.mser).detect(grey);
+    std::vector<saliency::TEllipse> ellipses;
+    for (const auto& region : regions) ellipses.push_back(region.ellipse);
+    saliency::writeRegionsCsv(prefix + ".regions.csv", regions);
+    saliency::writeVgg(prefix + ".vgg", ellipses);
+    writePicture(prefix + ".overlay.png", drawOverlay(grey, regions));
+    return std::to_string(regions.size()) + " stable regions";
+}
+
+}  // namespace salma::apps
