@@ -10,9 +10,9 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <stdexcept>
-
-#include "CTextFile.h"
 
 namespace salma::viz {
 namespace {
@@ -79,10 +79,16 @@ int runChild(int in, int out, int err) {
     return status;
 }
 
-bool isWholePng(const std::string& bytes) {
+/// gnuplot does not tell when the disk is full; a PNG that broke off lacks its last chunk.
+bool isWholePng(const std::string& file) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error)) return false;
     const std::string end("IEND\xAE\x42\x60\x82", 8);
-    return bytes.size() > 8 && bytes.compare(1, 3, "PNG") == 0 &&
-           bytes.compare(bytes.size() - end.size(), end.size(), end) == 0;
+    std::ifstream in(file, std::ios::binary | std::ios::ate);
+    std::string tail(end.size(), '\0');
+    in.seekg(-static_cast<std::streamoff>(tail.size()), std::ios::end);
+    in.read(tail.data(), static_cast<std::streamsize>(tail.size()));
+    return in && tail == end;
 }
 
 }  // namespace
@@ -109,7 +115,7 @@ void CGnuplot::run(const std::string& file) const {
     }
     if (status != 0)
         throw std::runtime_error(file + ": gnuplot failed: " + complaint(complaints.get()));
-    if (!isWholePng(readText(file)))
+    if (!isWholePng(file))
         throw std::runtime_error(file + ": cannot be written: " + complaint(complaints.get()));
 }
 

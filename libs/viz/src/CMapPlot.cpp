@@ -127,7 +127,7 @@ class CMapDrawing {
         ends();
         labels();
         decorate();
-        m_plot.script() << "plot " << m_elements << "\n";
+        m_plot.script() << "plot " << (m_elements.empty() ? "NaN notitle" : m_elements) << "\n";
         m_plot.run(file);
     }
 

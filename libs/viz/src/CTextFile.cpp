@@ -51,8 +51,8 @@ std::string readText(const std::string& file) {
     if (!in) fail(file, "cannot be read");
     std::ostringstream text;
     text << in.rdbuf();
-    if (in.bad() || (!text && in.peek() != std::ifstream::traits_type::eof()))
-        fail(file, "cannot be read");  // e.g. a folder
+    // a folder opens well, and the stream hides why nothing came
+    if (in.bad() || errno == EISDIR || errno == EIO) fail(file, "cannot be read");
     return text.str();
 }
 
