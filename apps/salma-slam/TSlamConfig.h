@@ -10,6 +10,7 @@
 #include <salma/slam/TEkfOptions.h>
 #include <salma/slam/rangeBearing.h>
 
+#include <cmath>
 #include <string>
 
 namespace salma::apps {
@@ -19,10 +20,10 @@ struct TRunOptions : public config::TStrictOptions<TRunOptions> {
     std::string rawlog;  //!< Log to read if the command line names none.
     int threads{0};      //!< For the pictures; 0: one per core. The result does not depend on it.
     bool corners{true};  //!< Laser corners are landmarks.
-    double scanDistance{0.2};   //!< A scan is used after this much travel [m] ...
-    double scanTurn{0.0873};    //!< ... or after this much turning since the one before [rad].
-    double unknownMotion{0.5};  //!< Without odometry: sigma of the motion in one second [m].
-    double unknownTurn{0.523598776};  //!< Without odometry: sigma of the turn in one second [rad].
+    double scanDistance{0.2};      //!< A scan is used after this much travel [m] ...
+    double scanTurn{M_PI / 36};    //!< ... or after this much turning since the one before [rad].
+    double unknownMotion{0.5};     //!< Without odometry: sigma of the motion in one second [m].
+    double unknownTurn{M_PI / 6};  //!< Without odometry: sigma of the turn in one second [rad].
 
     void visit(config::COptionVisitor& v);
 };

@@ -1,19 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <salma/config/CSectionWriter.h>
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <iomanip>
 
 namespace salma::config {
 namespace {
 
+/// Fewest digits that come within a billionth of the value, without exponent where that reads well.
 std::string shortest(double value) {
-    char text[40];
+    char text[64];
     for (int digits = 1; digits <= 12; ++digits) {
         std::snprintf(text, sizeof text, "%.*g", digits, value);
-        if (std::strtod(text, nullptr) == value) break;
+        if (std::abs(std::strtod(text, nullptr) - value) <= 1e-9 * std::abs(value)) break;
     }
+    const double rounded = std::strtod(text, nullptr);
+    if (std::strchr(text, 'e') != nullptr && rounded == std::floor(rounded) &&
+        std::abs(rounded) < 1e9)
+        std::snprintf(text, sizeof text, "%.0f", rounded);
     return text;
 }
 

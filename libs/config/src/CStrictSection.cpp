@@ -27,6 +27,8 @@ bool CStrictSection::find(const std::string& key, std::string& text) {
     m_read.insert(key);
     if (!has(key)) return false;
     text = m_file.read_string(m_section, key, "");
+    if (text.compare(0, 2, "//") == 0)
+        text.clear();  // MRPT takes a comment behind no value for one
     return true;
 }
 

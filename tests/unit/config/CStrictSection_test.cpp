@@ -51,6 +51,13 @@ TEST(CStrictSection, ReadsDegreesBehindAComment) {
     EXPECT_NEAR(x, M_PI, 1e-12);
 }
 
+TEST(CStrictSection, TakesACommentBehindNoValueForNoValue) {
+    const auto file = ini("name =   // nothing here\n");
+    std::string name = "before";
+    CStrictSection(file, "s").text("name", name);
+    EXPECT_EQ(name, "");
+}
+
 TEST(CStrictSection, ReadsWholeNumbersFlagsWordsAndLists) {
     const auto file = ini("n = 3\nhalf = 0.5\nyes = true\nodd = 1\nmode = b\nall = 1 2.5 -3\n");
     CStrictSection section(file, "s");

