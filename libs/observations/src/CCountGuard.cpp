@@ -2,14 +2,13 @@
 #include "CCountGuard.h"
 
 #include <cstring>
-#include <stdexcept>
 
 namespace salma::observations {
 namespace {
 
 // Bytes of a serialised CPose3D and CPose2D: length of the name, name, version, numbers, end mark.
-constexpr std::uint64_t kPose3D = 1 + 20 + 1 + 7 * 8 + 1;
-constexpr std::uint64_t kPose2D = 1 + 20 + 1 + 3 * 8 + 1;
+constexpr std::uint64_t kPose3D = 1 + 20 + 1 + 12 * 8 + 1;  // version 3
+constexpr std::uint64_t kPose2D = 1 + 20 + 1 + 3 * 8 + 1;   // version 1
 constexpr std::uint64_t kScanCount = 4 + 1 + 4 + kPose3D;
 constexpr std::uint64_t kCovarianceFlag = 4 * 4 + kPose3D + 8;
 constexpr std::uint64_t kParticleCount = 4 + kPose2D + 4 + 6 * 4;
@@ -20,6 +19,9 @@ constexpr std::uint32_t kMaxParticles = 100'000;  // MRPT draws them at once; th
 void CCountGuard::begin(std::string_view name, int version, std::uint64_t start) {
     const auto colon = name.rfind(':');
     const std::string_view plain = colon == std::string_view::npos ? name : name.substr(colon + 1);
+    // Older poses have other lengths: where the count stands is then not known.
+    if ((plain == "CPose3D" && version != 3) || (plain == "CPose2D" && version != 1))
+        m_kind = EKind::none;
     EKind kind = EKind::none;
     if (plain == "CObservation2DRangeScan" && version >= 6) kind = EKind::scan;
     if (plain == "CObservationBearingRange" && version >= 3) kind = EKind::bearings;
@@ -45,11 +47,11 @@ std::uint64_t CCountGuard::offsetOfCount() const {
     }
 }
 
-void CCountGuard::check(std::uint64_t position, std::string_view bytes, std::uint64_t size) {
-    if (m_kind == EKind::none) return;
+std::string CCountGuard::check(std::uint64_t position, std::string_view bytes, std::uint64_t size) {
+    if (m_kind == EKind::none) return {};
     if (m_kind == EKind::bearings && position == m_start + kCovarianceFlag && bytes.size() == 1)
         m_ownCovariances = bytes[0] != 0;
-    if (position != m_start + offsetOfCount() || bytes.size() != 4) return;
+    if (position != m_start + offsetOfCount() || bytes.size() != 4) return {};
     std::uint32_t count = 0;
     std::memcpy(&count, bytes.data(), sizeof count);
     const std::uint64_t left = size - position - bytes.size();
@@ -59,8 +61,8 @@ void CCountGuard::check(std::uint64_t position, std::string_view bytes, std::uin
     if (m_kind == EKind::bearings) limit = left / 16;
     if (m_kind == EKind::movement) limit = kMaxParticles;
     m_kind = EKind::none;
-    if (count > limit)
-        throw std::runtime_error("a record claims " + std::to_string(count) + " elements");
+    if (count <= limit) return {};
+    return "holds a record that claims " + std::to_string(count) + " elements";
 }
 
 }  // namespace salma::observations

@@ -18,8 +18,8 @@ class CCountGuard {
     /// An object of class `name` begins; its data start at byte `start` of the content.
     void begin(std::string_view name, int version, std::uint64_t start);
 
-    /// `bytes` were read at `position` of `size`. \throw std::runtime_error for a false count.
-    void check(std::uint64_t position, std::string_view bytes, std::uint64_t size);
+    /// `bytes` were read at `position` of `size`. What is wrong with them; "" if nothing.
+    std::string check(std::uint64_t position, std::string_view bytes, std::uint64_t size);
 
  private:
     enum class EKind { none, scan, bearings, collection, movement };

@@ -94,13 +94,14 @@ std::size_t CLogArchive::write(const void*, std::size_t) {
 }
 
 void CLogArchive::notice(const std::uint8_t* data, std::size_t bytes) {
-    m_guard.check(m_position, {reinterpret_cast<const char*>(data), bytes}, m_size);
+    const std::string_view text(reinterpret_cast<const char*>(data), bytes);
+    m_refusal = m_guard.check(m_position, text, m_size);
+    if (!m_refusal.empty()) throw std::runtime_error(m_refusal);
     if (m_versionFollows && bytes == 1) {
         m_guard.begin(m_lastClass, data[0], m_position + 1);
         m_versionFollows = false;
         return;
     }
-    const std::string_view text(reinterpret_cast<const char*>(data), bytes);
     m_versionFollows = m_nameLength > 0 && bytes == m_nameLength && isClassName(text);
     if (m_versionFollows) m_lastClass = text;
     m_nameLength = bytes == 1 && (data[0] & kNameFlag) ? data[0] & ~kNameFlag : 0;

@@ -36,6 +36,9 @@ class CLogArchive : public mrpt::serialization::CArchive {
     /// Name of the class whose object was begun last, "" before the first.
     const std::string& lastClass() const { return m_lastClass; }
 
+    /// What was read and refused here; "" if nothing was.
+    const std::string& refusal() const { return m_refusal; }
+
     std::string getArchiveDescription() const override { return m_file; }
 
  protected:
@@ -64,6 +67,7 @@ class CLogArchive : public mrpt::serialization::CArchive {
     std::size_t m_nameLength{0};   //!< Length of the class name that must follow now; 0 for none.
     bool m_versionFollows{false};  //!< The name was just read.
     std::string m_lastClass;
+    std::string m_refusal;
     CCountGuard m_guard;
 };
 

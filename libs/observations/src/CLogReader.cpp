@@ -31,12 +31,17 @@ void count(const CObservation& observation, TLog& log) {
 
 /// Motion of a collection, joined to what collections before it said since the last frame.
 void addMovement(const mrpt::obs::CActionCollection& actions,
+                 const std::string& file,
                  std::optional<CPosePDFGaussian>& pending) {
-    const auto movement = movementOf(actions);
-    if (pending && movement)
-        *pending += *movement;
-    else if (movement)
-        pending = movement;
+    try {
+        const auto movement = movementOf(actions);
+        if (pending && movement)
+            *pending += *movement;
+        else if (movement)
+            pending = movement;
+    } catch (const std::exception&) {  // MRPT's words go on for lines
+        throw std::runtime_error(file + ": holds an action that cannot be used");
+    }
 }
 
 TFrame observationsOf(const mrpt::obs::CSensoryFrame& frame, TLog& log) {
@@ -52,7 +57,7 @@ TFrame observationsOf(const mrpt::obs::CSensoryFrame& frame, TLog& log) {
     return observations;
 }
 
-TLogParts takeApart(const TRawObjects& raw, TLog& log) {
+TLogParts takeApart(const TRawObjects& raw, const std::string& file, TLog& log) {
     TLogParts parts;
     std::optional<CPosePDFGaussian> pending;
     for (const auto& object : raw.objects) {
@@ -65,7 +70,7 @@ TLogParts takeApart(const TRawObjects& raw, TLog& log) {
             pending.reset();
         } else if (const auto actions =
                        std::dynamic_pointer_cast<mrpt::obs::CActionCollection>(object)) {
-            addMovement(*actions, pending);
+            addMovement(*actions, file, pending);
         }
     }
     parts.actionFormat = !parts.frames.empty();
@@ -78,7 +83,7 @@ void addCompanion(const TLogReaderOptions& options, TLogParts& parts, TLog& log)
     const TRawObjects raw = readObjects(companion, options.acceptTruncated);
     log.companionFile = companion;
     log.truncated = log.truncated || raw.truncated;
-    TLogParts more = takeApart(raw, log);
+    TLogParts more = takeApart(raw, companion, log);
     parts.single.insert(parts.single.end(), more.single.begin(), more.single.end());
     for (const TFrame& frame : more.frames)
         parts.single.insert(parts.single.end(), frame.begin(), frame.end());
@@ -96,7 +101,7 @@ TLog readLog(const std::string& file, const TLogReaderOptions& options) {
     log.truncated = raw.truncated;
     log.lastGoodTime = raw.lastGoodTime;
     try {
-        TLogParts parts = takeApart(raw, log);
+        TLogParts parts = takeApart(raw, file, log);
         addCompanion(options, parts, log);
         buildSteps(std::move(parts), log);
     } catch (const std::bad_alloc&) {

@@ -61,6 +61,7 @@ TFrame keptOf(const CSensoryFrame& frame) {
     return kept;
 }
 
+/// \pre There is a frame among `objects`.
 void writeFrames(CLogSink& sink,
                  const std::vector<mrpt::serialization::CSerializable::Ptr>& objects,
                  const TFrame& more) {
@@ -68,7 +69,6 @@ void writeFrames(CLogSink& sink,
     for (const auto& object : objects)
         if (const auto frame = std::dynamic_pointer_cast<CSensoryFrame>(object))
             frames.push_back(keptOf(*frame));
-    if (frames.empty()) throw std::runtime_error("the log has lost its sensory frames");
     const std::vector<std::size_t> places = nearestFrames(frames, more);
     for (std::size_t i = 0; i < more.size(); ++i) frames[places[i]].push_back(more[i]);
     std::size_t next = 0;
@@ -97,7 +97,10 @@ void saveEmbedded(const TLog& log, const TSalientRecords& records, const std::st
     const TRawObjects raw = readObjects(log.file, log.truncated);
     TFrame content = companionContent(log, records);
     CLogSink sink(file);
-    if (log.actionFormat) {
+    const bool frames = std::any_of(raw.objects.begin(), raw.objects.end(), [](const auto& object) {
+        return std::dynamic_pointer_cast<CSensoryFrame>(object) != nullptr;
+    });
+    if (frames) {
         writeFrames(sink, raw.objects, content);
     } else {
         const TFrame others = othersOf(raw.objects);

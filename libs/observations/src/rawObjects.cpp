@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rawObjects.h"
 
-#include <mrpt/core/exceptions.h>
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CRawlog.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/system/datetime.h>
 #include <salma/observations/registerClasses.h>
 
-#include <algorithm>
 #include <new>
 #include <stdexcept>
 
@@ -30,14 +28,6 @@ std::string seconds(double time) {
     return text;
 }
 
-/// MRPT adds places in its sources and call stacks on further lines; the user needs neither.
-std::string firstLine(const std::exception& error) {
-    const auto* mrptError = dynamic_cast<const mrpt::ExceptionWithCallBackBase*>(&error);
-    std::string text = mrptError ? mrptError->originalWhat : error.what();
-    text.resize(std::min(text.find('\n'), text.size()));
-    return text;
-}
-
 /// Where a log stands when it cannot be read on.
 std::string place(const TRawObjects& read) {
     if (read.objects.empty()) return "in its first record";
@@ -45,16 +35,16 @@ std::string place(const TRawObjects& read) {
            seconds(read.lastGoodTime);
 }
 
-/// Why the object that comes now cannot be read; does not return.
-[[noreturn]] void explain(const CLogArchive& in,
-                          const TRawObjects& read,
-                          const std::exception& error) {
-    const std::string file = in.getArchiveDescription();
+/// Why the object that comes now cannot be read. MRPT's own words name its sources and go on for
+/// lines, so they are left out.
+[[noreturn]] void explain(const CLogArchive& in, const TRawObjects& read) {
     const std::string& name = in.lastClass();
-    if (!name.empty() && mrpt::rtti::findRegisteredClass(name) == nullptr)
-        fail(file,
-             "holds a record of class '" + name + "', which is not known here, " + place(read));
-    fail(file, "cannot be read on " + place(read) + ": " + firstLine(error));
+    std::string problem = in.refusal();
+    if (problem.empty() && !name.empty() && mrpt::rtti::findRegisteredClass(name) == nullptr)
+        problem = "holds a record of class '" + name + "', which is not registered";
+    else if (problem.empty())
+        problem = "is damaged in a record of class '" + name + "'";
+    fail(in.getArchiveDescription(), problem + ", " + place(read));
 }
 
 void noteTime(const CSerializable::Ptr& object, TRawObjects& read) {
@@ -90,8 +80,8 @@ bool readNext(CLogArchive& in, TRawObjects& read) {
     } catch (const std::bad_alloc&) {
         fail(in.getArchiveDescription(),
              "a record claims more than the memory holds, " + place(read));
-    } catch (const std::exception& error) {
-        if (!in.brokeOff()) explain(in, read, error);
+    } catch (const std::exception&) {
+        if (!in.brokeOff()) explain(in, read);
         return false;
     }
     store(in.getArchiveDescription(), object, read);

@@ -46,6 +46,18 @@ CObservationOdometry::Ptr odometryAt(double time, const CPose2D& pose) {
     return record;
 }
 
+CObservationBearingRange::Ptr bearings(std::size_t count, bool ownCovariances) {
+    auto sightings = stamped<CObservationBearingRange>(0, "LANDMARKS");
+    sightings->sensedData.resize(count);
+    sightings->validCovariances = ownCovariances;
+    for (auto& sighting : sightings->sensedData) {
+        sighting.range = 1;
+        sighting.landmarkID = mrpt::obs::INVALID_LANDMARK_ID;
+        sighting.covariance.setIdentity();
+    }
+    return sightings;
+}
+
 CObservationImage::Ptr pictureAt(double time, const std::string& file) {
     auto picture = stamped<CObservationImage>(time, "CAMERA");
     picture->image.setExternalStorage(file);

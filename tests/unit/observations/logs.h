@@ -4,6 +4,7 @@
 #include <mrpt/math/CMatrixFixed.h>
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationBearingRange.h>
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CSensoryFrame.h>
@@ -21,6 +22,8 @@ constexpr double kStart = 1'000'000'000;  // [s since 1970]
 
 mrpt::obs::CObservation2DRangeScan::Ptr scanAt(double time, const std::string& label = "LASER");
 mrpt::obs::CObservationOdometry::Ptr odometryAt(double time, const mrpt::poses::CPose2D& pose);
+/// Sightings of `count` landmarks, with or without a covariance of each.
+mrpt::obs::CObservationBearingRange::Ptr bearings(std::size_t count, bool ownCovariances);
 /// An external picture.
 mrpt::obs::CObservationImage::Ptr pictureAt(double time, const std::string& file);
 observations::CObservationSalientLandmarks::Ptr recordAt(double time);
