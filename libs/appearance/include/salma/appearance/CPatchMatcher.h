@@ -12,15 +12,16 @@ namespace salma::appearance {
 
 /// Section [matcher] of config.ini.
 struct TMatcherOptions : public config::TStrictOptions<TMatcherOptions> {
-    double ratio{0.8};                     //!< Nearest over second nearest descriptor distance.
-    double scaleTolerance{1.3};            //!< Patches agree in scale within this factor, > 1.
-    double rotationTolerance{0.26};        //!< They agree in rotation within this [rad].
-    double positionTolerance{0.04};        //!< Matches agree on the shift within this [m].
-    int minMatches{4};                     //!< Fewer consistent matches score 0.
-    int fullScoreKeypoints{20};            //!< A patch with fewer keypoints cannot score 1.
-    double duplicateRate{0.02};            //!< Share of other entities that look the same.
-    std::vector<double> scoreKnots{0, 1};  //!< Scores, ascending from 0 to 1.
-    std::vector<double> logLrKnots{0, 0};  //!< log p(score|same)/p(score|other) at each.
+    double ratio{0.8};               //!< Nearest over second nearest descriptor distance.
+    double scaleTolerance{1.3};      //!< Patches agree in scale within this factor, > 1.
+    double rotationTolerance{0.26};  //!< They agree in rotation within this [rad].
+    double positionTolerance{0.04};  //!< Matches agree on the shift within this [m].
+    int minMatches{4};               //!< Fewer consistent matches score 0.
+    int fullScoreKeypoints{20};      //!< A patch with fewer keypoints cannot score 1.
+    double duplicateRate{0.02};      //!< Share of other entities that look the same.
+    std::vector<double> scoreKnots{0, 0.1, 0.2, 0.3, 1};  //!< Scores, ascending from 0 to 1.
+    std::vector<double> logLrKnots{-3, 0, 1.4, 5.2,
+                                   5.2};  //!< log p(score|same)/p(score|other) at each.
 
     void visit(config::COptionVisitor& v);
     void validate() const;
@@ -49,7 +50,15 @@ struct TPatchMatch {
  * and whose rotation is near 0, since patches are metric and upright.
  * score = consistent / max(smaller keypoint count, `full_score_keypoints`), 0 below `min_matches`.
  * A patch with fewer than `min_matches` keypoints says nothing: score 0, log likelihood ratio 0.
- * Source: D. Lowe, IJCV 60(2), 2004 (ratio test); agreement: own. */
+ *
+ * The default table was measured on ten paintings and photographs, 0.8 m high, rendered on a wall
+ * from 1 to 6 m and up to 65 deg to either side, with blur up to 1.5 px, noise of 2 to 6 grey
+ * levels, gain 0.6 to 1.2, borders off by 5 cm, and the wall off by 2 cm and 2 deg: 280 pairs of
+ * the same, 576 of different ones. Same: 2 % score below 0.2, 10 % below 0.3, none 0. Different:
+ * all score 0, so p(score > 0 | other) < 3/576 with 95 %. Five per cent of real views are taken to
+ * be spoilt (glare, people in front) and to score 0, hence -3 there. On ten further pictures 0.4 %
+ * of the same and all of the different pairs score 0. Source: D. Lowe, IJCV 60(2), 2004 (ratio
+ * test); agreement: own. */
 class CPatchMatcher {
  public:
     /// \throw std::invalid_argument if the options contradict each other.

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <mrpt/math/wrap2pi.h>
+#include <salma/appearance/CRectifier.h>
+#include <salma/appearance/TPolarMeasurement.h>
+
+#include <Eigen/Dense>
+#include <stdexcept>
+
+#include "wallRenderer.h"
+
+namespace salma::appearance {
+namespace {
+
+const TWallRectangle kPlace{-0.4, 0.3, 0.4, 0.9};
+
+/// A chessboard of 8 x 6 squares of 0.1 m when hung at kPlace; the top left square is white.
+cv::Mat chessboard() {
+    cv::Mat board(600, 800, CV_8UC1);
+    for (int r = 0; r < board.rows; ++r)
+        for (int c = 0; c < board.cols; ++c)
+            board.at<std::uint8_t>(r, c) = (r / 100 + c / 100) % 2 == 0 ? 220 : 30;
+    return board;
+}
+
+CWallView viewFrom(double pan, const laser::TLine& wall) {
+    return {test::pannedCamera(), test::panTiltPose({0, 0, 0.5}, pan, 0.05), wall};
+}
+
+cv::Mat pictureOf(const CWallView& view) {
+    std::mt19937 random(1);
+    return test::renderPoster(view, chessboard(), kPlace, {}, random);
+}
+
+ERefusal refusalOf(const CWallView& view, const TWallRectangle& place) {
+    const auto result =
+        CRectifier().rectify(cv::Mat(480, 640, CV_8UC1, cv::Scalar(9)), view, place);
+    EXPECT_EQ(result.patch.has_value(), result.refusal == ERefusal::none);
+    return result.refusal;
+}
+
+TEST(CRectifier, ShowsSquaresAsSquaresFromWhereverTheyAreSeen) {
+    for (const double alpha : {-0.9, -0.3, 0.0, 0.5, 0.9}) {  // up to 52 deg of incidence
+        const CWallView view = viewFrom(alpha > 0 ? 0.02 : -0.02, test::wallLine(2.2, alpha));
+        // hung where the camera's axis meets the wall
+        const double u = 2.2 * std::tan(alpha);
+        const TWallRectangle place{u - 0.4, 0.3, u + 0.4, 0.9};
+        std::mt19937 random(1);
+        const cv::Mat picture = test::renderPoster(view, chessboard(), place, {}, random);
+        const auto result = CRectifier().rectify(picture, view, place);
+        ASSERT_TRUE(result.patch) << asString(result.refusal);
+        const cv::Mat patch = result.patch->picture.asCvMatRef();
+        EXPECT_NEAR(patch.cols, 0.8 * result.patch->pixelsPerMetre, 1);
+        for (int r = 0; r < 6; ++r)
+            for (int c = 0; c < 8; ++c) {
+                const double grey = patch.at<std::uint8_t>((2 * r + 1) * patch.rows / 12,
+                                                           (2 * c + 1) * patch.cols / 16);
+                EXPECT_NEAR(grey, (r + c) % 2 == 0 ? 220 : 30, 25)
+                    << "square " << r << ", " << c << " at " << alpha;
+            }
+    }
+}
+
+TEST(CRectifier, FillsTheFieldsOfThePatch) {
+    const CWallView view = viewFrom(0, test::wallLine(2, 0));
+    const auto patch = CRectifier().rectify(pictureOf(view), view, kPlace).patch;
+    ASSERT_TRUE(patch);
+    EXPECT_NEAR(patch->width, 0.8, 1e-12);
+    EXPECT_NEAR(patch->height, 0.6, 1e-12);
+    EXPECT_LT(patch->quad[0].x, patch->quad[1].x);  // top left, top right, bottom right
+    EXPECT_LT(patch->quad[1].y, patch->quad[2].y);
+    EXPECT_LT(patch->quad[3].x, patch->quad[2].x);
+    EXPECT_NEAR(patch->pose.mean.x(), 2, 1e-9);
+    EXPECT_NEAR(patch->pose.mean.z(), 0.6, 1e-9);
+    // u points to the robot's right, v up, the normal back to the robot
+    const auto R = patch->pose.mean.getRotationMatrix();
+    EXPECT_NEAR(R(1, 0), -1, 1e-9);
+    EXPECT_NEAR(R(2, 1), 1, 1e-9);
+    EXPECT_NEAR(R(0, 2), -1, 1e-9);
+    EXPECT_NEAR(patch->incidence, std::atan2(0.1, 2), 1e-9);
+    EXPECT_TRUE(patch->keypoints.empty());
+}
+
+TEST(CRectifier, SaysWhyThereIsNoPatch) {
+    const CWallView view = viewFrom(0, test::wallLine(2, 0));
+    EXPECT_EQ(refusalOf(view, kPlace), ERefusal::none);
+    EXPECT_EQ(refusalOf(view, {-0.4, 0.3, 2.5, 0.9}), ERefusal::outsidePicture);
+    EXPECT_EQ(refusalOf(view, {-0.4, 0.3, -0.39, 0.9}), ERefusal::badRectangle);
+    EXPECT_EQ(refusalOf(view, {0.4, 0.3, -0.4, 0.9}), ERefusal::badRectangle);
+    EXPECT_EQ(refusalOf(view, {std::nan(""), 0.3, 0.4, 0.9}), ERefusal::badRectangle);
+    EXPECT_EQ(refusalOf(viewFrom(0, test::wallLine(18, 0)), {-1, 0, 1, 1}), ERefusal::coarse);
+    const CWallView along = viewFrom(0, test::wallLine(0.8, 1.45));  // 0.8 m beside the camera
+    EXPECT_EQ(refusalOf(along, {6.4, 0.3, 6.8, 0.9}), ERefusal::grazing);
+    EXPECT_EQ(refusalOf(viewFrom(M_PI, test::wallLine(2, 0)), kPlace), ERefusal::outsidePicture);
+    EXPECT_EQ(CRectifier().rectify({}, view, kPlace).refusal, ERefusal::noPicture);
+    const cv::Mat other(100, 100, CV_8UC1, cv::Scalar(0));
+    EXPECT_EQ(CRectifier().rectify(other, view, kPlace).refusal, ERefusal::noPicture);
+    const cv::Mat colour(480, 640, CV_8UC3);
+    EXPECT_THROW(CRectifier().rectify(colour, view, kPlace), std::invalid_argument);
+}
+
+TEST(CRectifier, LimitsTheResolutionOfACloseView) {
+    const CWallView view = viewFrom(0, test::wallLine(0.8, 0));  // 880 px/m
+    const TWallRectangle small{-0.1, 0.45, 0.1, 0.65};
+    const auto patch = CRectifier().rectify(pictureOf(view), view, small).patch;
+    ASSERT_TRUE(patch);
+    EXPECT_EQ(patch->pixelsPerMetre, 400);
+    EXPECT_EQ(patch->picture.getWidth(), 80U);
+}
+
+/// Mean NEES of (x, y, yaw) and of z when wall, pixel and camera are drawn around the given view.
+std::pair<double, double> poseNees(const CWallView& truth, double u, double v) {
+    const TRectificationOptions options;
+    const CRectifier rectifier(options);
+    std::mt19937 random(3);
+    std::normal_distribution<double> n;
+    const Eigen::Vector3d X = truth.point(u, v);
+    const mrpt::math::TPoint2D pixel = *truth.toPixel(u, v);
+    std::pair<double, double> nees{0, 0};
+    constexpr int kRuns = 400;
+    for (int i = 0; i < kRuns; ++i) {
+        laser::TLine wall = truth.wall();
+        wall.rho += std::sqrt(wall.covariance(0, 0)) * n(random) + options.wallSigma * n(random);
+        wall.alpha += std::sqrt(wall.covariance(1, 1)) * n(random);
+        const double a = options.extrinsicsSigma;
+        const double t = options.extrinsicsSigmaXyz;
+        const auto& T = truth.cameraPose();
+        const mrpt::poses::CPose3D camera =
+            mrpt::poses::CPose3D(T.x() + t * n(random), T.y() + t * n(random),
+                                 T.z() + t * n(random), 0, 0, 0) +
+            mrpt::poses::CPose3D(0, 0, 0, a * n(random), a * n(random), a * n(random)) +
+            mrpt::poses::CPose3D(0, 0, 0, T.yaw(), T.pitch(), T.roll());
+        const CWallView seen(truth.camera(), camera, wall);
+        const auto uv = seen.toWall(
+            {pixel.x + options.cameraSigma * n(random), pixel.y + options.cameraSigma * n(random)});
+        const auto pose = rectifier.pose(seen, uv->x, uv->y);
+        const Eigen::Vector3d error(
+            pose.mean.x() - X.x(), pose.mean.y() - X.y(),
+            mrpt::math::wrapToPi(pose.mean.yaw() - (truth.wall().alpha - M_PI_2)));
+        Eigen::Matrix3d P;
+        const int rows[] = {0, 1, 3};
+        for (int r = 0; r < 3; ++r)
+            for (int c = 0; c < 3; ++c) P(r, c) = pose.cov(rows[r], rows[c]);
+        nees.first += error.dot(P.inverse() * error) / kRuns;
+        const double height = pose.mean.z() - X.z() + options.heightSigma * n(random);
+        nees.second += height * height / pose.cov(2, 2) / kRuns;
+    }
+    return nees;
+}
+
+TEST(CRectifier, StatesTheCovarianceOfThePoseThatTheErrorsHave) {
+    for (const double alpha : {0.0, 0.6, 1.1, -1.1}) {
+        laser::TLine wall = test::wallLine(1.5, alpha);
+        wall.covariance << 2.5e-5, 0, 0, 1e-4;
+        const CWallView view = viewFrom(0.1, wall);
+        const auto nees = poseNees(view, 1.5 * std::tan(alpha), 0.7);
+        EXPECT_NEAR(nees.first, 3, 0.45) << alpha;  // chi-square(3): 3 +- 0.12 for 400 runs
+        EXPECT_NEAR(nees.second, 1, 0.25) << alpha;
+    }
+}
+
+TEST(CRectifier, IsLessSureAlongTheWallTheMoreSlantingTheView) {
+    const CRectifier rectifier;
+    double last = 0;
+    for (const double alpha : {0.0, 0.5, 0.9, 1.2}) {
+        // the same 2 m to the poster each time
+        const CWallView view = viewFrom(0, test::wallLine(2 * std::cos(alpha), alpha));
+        const auto pose = rectifier.pose(view, 2 * std::sin(alpha), 0.5);
+        const Eigen::Vector2d along(std::sin(alpha), -std::cos(alpha));
+        Eigen::Matrix2d P;
+        P << pose.cov(0, 0), pose.cov(0, 1), pose.cov(1, 0), pose.cov(1, 1);
+        const double sigma = std::sqrt(along.dot(P * along));
+        EXPECT_GT(sigma, last);
+        last = sigma;
+    }
+}
+
+TEST(PolarMeasurement, IsTheCentreInRangeAndBearingWithTheWallsNormal) {
+    observations::TPatch patch;
+    patch.pose.mean = mrpt::poses::CPose3D(3, 4, 1, -0.6, 0, M_PI_2);
+    patch.pose.cov.setIdentity();
+    patch.pose.cov *= 0.01;
+    const auto m = polarMeasurement(patch);
+    EXPECT_NEAR(m.z[0], 5, 1e-12);
+    EXPECT_NEAR(m.z[1], std::atan2(4, 3), 1e-12);
+    EXPECT_NEAR(m.R(0, 0), 0.01, 1e-12);
+    EXPECT_NEAR(m.R(1, 1), 0.01 / 25, 1e-12);
+    EXPECT_NEAR(m.R(0, 1), 0, 1e-12);
+    const auto R = patch.pose.mean.getRotationMatrix();
+    EXPECT_NEAR(std::cos(m.wallAngle), R(0, 2), 1e-12);
+    EXPECT_NEAR(std::sin(m.wallAngle), R(1, 2), 1e-12);
+    EXPECT_NEAR(m.wallAngleSigma, 0.1, 1e-12);
+    patch.pose.mean = mrpt::poses::CPose3D();
+    EXPECT_THROW(polarMeasurement(patch), std::invalid_argument);
+}
+
+TEST(PolarMeasurement, PropagatesAsCentralDifferencesDo) {
+    const CWallView view = viewFrom(0.2, test::wallLine(2, 0.5));
+    observations::TPatch patch;
+    patch.pose = CRectifier().pose(view, 0.9, 0.6);
+    Eigen::Matrix3d J;
+    const double h = 1e-6;
+    for (int i = 0; i < 3; ++i) {
+        Eigen::Vector3d value[2];
+        for (int side = 0; side < 2; ++side) {
+            const double e = side == 0 ? h : -h;
+            auto moved = patch;
+            const auto& p = patch.pose.mean;
+            moved.pose.mean =
+                mrpt::poses::CPose3D(p.x() + (i == 0 ? e : 0), p.y() + (i == 1 ? e : 0), p.z(),
+                                     p.yaw() + (i == 2 ? e : 0), p.pitch(), p.roll());
+            const auto m = polarMeasurement(moved);
+            value[side] = {m.z[0], m.z[1], m.wallAngle};
+        }
+        J.col(i) = (value[0] - value[1]) / (2 * h);
+    }
+    Eigen::Matrix3d P;
+    const int rows[] = {0, 1, 3};
+    for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c) P(r, c) = patch.pose.cov(rows[r], rows[c]);
+    EXPECT_LT((polarMeasurement(patch).full - J * P * J.transpose()).norm(), 1e-9);
+}
+
+}  // namespace
+}  // namespace salma::appearance
