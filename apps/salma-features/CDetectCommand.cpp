@@ -65,8 +65,8 @@ CDetectCommand::CDetectCommand(CLI::App& app)
     m_command->add_option("--detector", m_detector, "scale-saliency (default) or mser")
         ->check(CLI::IsMember({"scale-saliency", "mser"}));
     m_command->add_flag("--peaks", m_peaks, "write all entropy peaks too, before clustering");
-    m_command->add_option("--y-min", m_yMin, "least saliency of a region, in the detector's base")
-        ->check(CLI::NonNegativeNumber);
+    m_command->add_option("--y-min", m_yMin,
+                          "least saliency of a region, in the detector's base (default 0)");
     m_command->add_flag("--print-config", m_printConfig, "print every key in use, and stop");
     // Examples belong to this command's own help, not to the list of commands.
     m_command->preparse_callback(
@@ -78,6 +78,8 @@ void CDetectCommand::checkUsage() const {
     if (m_printConfig) return;
     if (m_images.empty()) throw CLI::RequiredError("IMAGE");
     if (m_out.empty()) throw CLI::RequiredError("--out");
+    if (!(m_yMin >= 0))  // false for NaN, which CLI11 lets pass
+        throw CLI::ValidationError("--y-min", "must be a number from 0");
     if (m_detector == "mser" && (m_peaks || m_command->count("--y-min") > 0))
         throw CLI::ValidationError("--detector mser", "has no entropy peaks and no saliency");
 }
