@@ -7,7 +7,7 @@
 
 namespace salma::association {
 
-/// Measured minus predicted: range [m] and bearing, wrapped to (-pi, pi] [rad].
+/// Measured minus predicted: range [m] and bearing, wrapped to within half a turn [rad].
 Eigen::Vector2d innovation(const Eigen::Vector2d& measured, const Eigen::Vector2d& predicted);
 
 /// How well one more pairing agrees with those chosen before.

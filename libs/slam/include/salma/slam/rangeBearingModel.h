@@ -19,7 +19,7 @@ TMotion moved(const Eigen::Vector3d& pose, const Eigen::Vector3d& increment);
 
 /// An expected measurement and its derivatives.
 struct TSighting {
-    Eigen::Vector2d z;  //!< Range [m] and bearing in (-pi, pi] [rad].
+    Eigen::Vector2d z;  //!< Range [m] and bearing, wrapped [rad].
     Matrix23 byPose;
     Eigen::Matrix2d byLandmark;
 };
