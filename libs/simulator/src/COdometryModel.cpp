@@ -11,9 +11,9 @@ namespace salma::simulator {
 using mrpt::math::TPose2D;
 
 COdometryModel::COdometryModel(const TOdometryOptions& options, std::uint32_t seed)
-    : m_options(options), m_random(std::make_unique<CRandom>(seed, "odometry", 0)) {
+    : m_options(options), m_random(std::make_unique<CRandom>(seed, "wheels", 0)) {
     m_options.validate();
-    CRandom systematic(seed, "odometry systematic", 0);
+    CRandom systematic(seed, "wheels systematic", 0);
     m_scale = systematic.normal(m_options.factor() * m_options.scaleSigma);
     m_turnScale = systematic.normal(m_options.factor() * m_options.turnScaleSigma);
     m_drift = systematic.normal(m_options.factor() * m_options.driftSigma);

@@ -217,10 +217,12 @@ void CSimulator::addScans(Records& records, std::vector<TSighting>& sightings) c
     }
 }
 
-void CSimulator::addHeadStates(Records& records) const {
+CSimulator::Records CSimulator::headStates() const {
     const THeadOptions& head = m_description.head;
+    Records records;
     for (const double time : instants(head.rate, 0.11, head.jitter, "head times"))
         records.push_back(CObservationPanTilt::Create(headState(time)));
+    return records;
 }
 
 void CSimulator::addOdometry(Records& records, TSimulationSummary& summary) const {
@@ -257,8 +259,8 @@ TSimulationSummary CSimulator::run(const std::filesystem::path& folder,
     }
     addScans(records, sightings);
     summary.scans = records.size() - summary.odometryRecords;
-    addHeadStates(records);
-    summary.panTiltRecords = records.size() - summary.odometryRecords - summary.scans;
+    const Records headStates = this->headStates();
+    summary.panTiltRecords = headStates.size();
     addPictures(records);
     summary.pictures = pictureCount();
     for (std::size_t i = 0; i < pictureCount(); ++i)
@@ -270,6 +272,7 @@ TSimulationSummary CSimulator::run(const std::filesystem::path& folder,
     writeTrajectory(file(".gt.tum"), truth);
     writeLandmarks(file(".landmarks.csv"), m_world.landmarks());
     writeSightings(file(".sightings.csv"), sightings);
+    writeRawlog(file(".salient.rawlog"), headStates);
     writeRawlog(file(".rawlog"), std::move(records));
     summary.duration = m_path.duration();
     summary.laserOffset = m_laser.offset();

@@ -46,8 +46,9 @@ class CSimulator {
     std::size_t pictureCount() const { return m_head.pictureTimes().size(); }
 
     /** Writes NAME.rawlog, NAME_Images/, NAME.gt.tum, NAME.landmarks.csv and NAME.sightings.csv to
-     * `folder`, which exists. \param onPicture Called after each picture, from several threads.
-     * \throw std::runtime_error if a file cannot be written. */
+     * `folder`, which exists. Pan/tilt records go to the companion NAME.salient.rawlog, since stock
+     * programs cannot read a log past the first of them. \param onPicture Called after each
+     * picture, from several threads. \throw std::runtime_error if a file cannot be written. */
     TSimulationSummary run(const std::filesystem::path& folder,
                            const std::function<void()>& onPicture = {});
 
@@ -79,7 +80,7 @@ class CSimulator {
     std::vector<TSighting> sightingsInScan(double time) const;
     void addPictures(Records& records) const;
     void addScans(Records& records, std::vector<TSighting>& sightings) const;
-    void addHeadStates(Records& records) const;
+    Records headStates() const;
     void addOdometry(Records& records, TSimulationSummary& summary) const;
     void writePictures(const std::filesystem::path& folder,
                        const std::function<void()>& onPicture) const;

@@ -63,10 +63,10 @@ enum class EHeadMode { fixed, sweep, attend };
 /// Section [head]: the pan/tilt head that carries the camera, and when it takes pictures.
 struct THeadOptions : public config::TStrictOptions<THeadOptions> {
     std::string mode{"sweep"};                    //!< "fixed:DEG", "sweep" or "attend".
-    std::vector<double> stops{-62, -36, 36, 62};  //!< Of a sweep, there and back again [deg].
+    std::vector<double> stops{-58, -34, 34, 58};  //!< Of a sweep, there and back again [deg].
     double speed{mrpt::DEG2RAD(80.0)};            //!< [rad/s]
     double settle{0.2};                           //!< From arrival to the picture [s].
-    double dwell{0.42};                           //!< From arrival to departure [s].
+    double dwell{0.36};                           //!< From arrival to departure [s].
     double period{0.8};                           //!< Between pictures if the head stays [s].
     double attendRange{5};                        //!< Posters farther away are let be [m].
     double tilt{0};                               //!< Upwards [rad].
@@ -91,14 +91,14 @@ enum class EOdometryNoise { low, medium, high };
  * doors, 2.5 m. The systematic ones are drawn once per run. */
 struct TOdometryOptions : public config::TStrictOptions<TOdometryOptions> {
     EOdometryNoise level{EOdometryNoise::medium};
-    double rate{20};                          //!< Records per second [Hz].
-    double jitter{0.002};                     //!< Sigma of the time of a record [s].
-    double scaleSigma{0.012};                 //!< Systematic, of distances [-].
-    double turnScaleSigma{0.012};             //!< Systematic, of angles [-].
-    double driftSigma{mrpt::DEG2RAD(0.20)};   //!< Systematic turn per metre [rad/m].
-    double distanceSigma{0.02};               //!< Random, per square root of metre [m].
-    double headingSigma{mrpt::DEG2RAD(0.5)};  //!< Random, per square root of metre [rad].
-    double turnSigma{mrpt::DEG2RAD(0.8)};     //!< Random, per square root of radian turned [rad].
+    double rate{20};                           //!< Records per second [Hz].
+    double jitter{0.002};                      //!< Sigma of the time of a record [s].
+    double scaleSigma{0.01};                   //!< Systematic, of distances [-].
+    double turnScaleSigma{0.021};              //!< Systematic, of angles [-].
+    double driftSigma{mrpt::DEG2RAD(0.265)};   //!< Systematic turn per metre [rad/m].
+    double distanceSigma{0.02};                //!< Random, per square root of metre [m].
+    double headingSigma{mrpt::DEG2RAD(1.06)};  //!< Random, per square root of metre [rad].
+    double turnSigma{mrpt::DEG2RAD(1.0)};      //!< Random, per square root of radian turned [rad].
 
     void visit(config::COptionVisitor& v);
     double factor() const;  //!< What `level` multiplies the sigmas by.
