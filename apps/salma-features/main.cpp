@@ -3,26 +3,20 @@
 #include <iostream>
 
 #include "CDetectCommand.h"
-#include "runProgram.h"
-#if __has_include("CMatchCommand.h")
 #include "CMatchCommand.h"
-#endif
+#include "runProgram.h"
 
 int main(int argc, char** argv) {
     CLI::App app("Finds salient regions in pictures and compares pictures.", "salma-features");
     app.require_subcommand(1);
     salma::apps::CDetectCommand detect(app);
-#if __has_include("CMatchCommand.h")
     salma::apps::CMatchCommand match(app);
-#endif
     return salma::apps::runProgram(
         app,
         "  salma-features detect corridor.jpg --out out/features\n"
         "  salma-features match poster-left.jpg poster-right.jpg --out out/match\n",
         argc, argv, [&] {
             if (detect.isChosen()) detect.run(std::cout);
-#if __has_include("CMatchCommand.h")
             if (match.isChosen()) match.run(std::cout);
-#endif
         });
 }

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
+#include "likelihoodTable.h"
 #include "matchKeypoints.h"
 
 namespace salma::appearance {
@@ -105,18 +105,6 @@ class CAgreement {
     const Keypoints& m_b;
 };
 
-void checkTable(const std::vector<double>& x, const std::vector<double>& y) {
-    if (x.size() != y.size() || x.size() < 2)
-        throw std::invalid_argument(
-            "[matcher] score_knots and log_lr_knots must have the same length, 2 or more");
-    if (!(x.front() == 0 && x.back() == 1))
-        throw std::invalid_argument("[matcher] score_knots must run from 0 to 1");
-    for (std::size_t i = 1; i < x.size(); ++i)
-        if (!(x[i - 1] < x[i] && y[i - 1] <= y[i]))
-            throw std::invalid_argument(
-                "[matcher] score_knots must ascend and log_lr_knots must not descend");
-}
-
 }  // namespace
 
 void TMatcherOptions::visit(config::COptionVisitor& v) {
@@ -137,22 +125,15 @@ void TMatcherOptions::visit(config::COptionVisitor& v) {
               "log p(score|same) / p(score|other) at each, measured on distinct posters");
 }
 
-void TMatcherOptions::validate() const { checkTable(scoreKnots, logLrKnots); }
+void TMatcherOptions::validate() const { checkTable(scoreKnots, logLrKnots, "matcher"); }
 
 CPatchMatcher::CPatchMatcher(const TMatcherOptions& options) : m_options(options) {
     m_options.validate();
 }
 
 double CPatchMatcher::logLikelihoodRatio(double score) const {
-    const auto& x = m_options.scoreKnots;
-    const auto& y = m_options.logLrKnots;
-    const double s = std::clamp(score, 0.0, 1.0);
-    std::size_t i = 1;
-    while (i + 1 < x.size() && s > x[i]) ++i;
-    const double table = y[i - 1] + (y[i] - y[i - 1]) * (s - x[i - 1]) / (x[i] - x[i - 1]);
-    // p(score|other) is a mixture: with the duplicate rate it is p(score|same)
-    const double ratio = std::exp(table);
-    return std::log(ratio / (1 - m_options.duplicateRate + m_options.duplicateRate * ratio));
+    const double table = readTable(m_options.scoreKnots, m_options.logLrKnots, score);
+    return withDuplicates(table, m_options.duplicateRate);
 }
 
 TPatchMatch CPatchMatcher::match(const observations::TPatch& a,

@@ -134,8 +134,15 @@ void CCornerExtractor::addLineEnds(const TLineResult& lines, TCornerResult& resu
     for (std::size_t i = 0; i < lines.lines.size(); ++i) {
         const TLine& line = lines.lines[i];
         if (!(line.length() >= m_options.longSide)) continue;
-        if (lines.freeEnds[i].from) add(edgeOf(line, line.from, lines), result);
-        if (lines.freeEnds[i].to) add(edgeOf(line, line.to, lines), result);
+        for (const bool first : {true, false}) {
+            if (!(first ? lines.freeEnds[i].from : lines.freeEnds[i].to)) continue;
+            const TCorner edge = edgeOf(line, first ? line.from : line.to, lines);
+            const auto isSame = [&](const TCorner& c) {
+                return c.convex && (c.position - edge.position).norm() <= m_options.maxEndDistance;
+            };
+            const auto& known = result.corners;
+            if (std::none_of(known.begin(), known.end(), isSame)) add(edge, result);
+        }
     }
 }
 

@@ -15,7 +15,8 @@ constexpr double kSigmas = 4;         // points of a line lie within so many sig
 constexpr double kEndSigmas = 3;      // at its ends, where another wall begins
 constexpr double kEndRoughness = 0.01;
 constexpr int kRegrowths = 6;
-constexpr double kJump = 0.3;  // beams that go on by this much have passed a wall's edge [m]
+constexpr double kDepth = 0.06;  // beams that meet something so far behind a wall passed its edge [m]
+constexpr int kEdgeBeams = 4;    // within so many beams: some meet the edge's own face or both sides
 
 using Members = std::vector<std::size_t>;
 
@@ -177,10 +178,17 @@ TLine asLine(const TFit& fit, const std::vector<TBeam>& beams, const Members& me
     return line;
 }
 
-/// True if beam i, beside the end of the line, meets something clearly behind the line.
-bool passes(const TFit& fit, const std::vector<TBeam>& beams, std::size_t i) {
-    if (i >= beams.size() || !beams[i].valid()) return false;
-    return fit.distance(beams[i]) > kJump;
+/** True if the wall itself ends at a beam: those after it meet something behind the wall, and
+ * nothing before it that could hide the rest. */
+bool isEdge(const TFit& fit, const std::vector<TBeam>& beams, std::size_t last, int direction) {
+    for (int k = 1; k <= kEdgeBeams; ++k) {
+        const std::size_t i = last + static_cast<std::size_t>(k * direction);  // wraps below 0
+        if (i >= beams.size() || !beams[i].valid()) return false;
+        const double behind = fit.distance(beams[i]);
+        if (behind < -kDepth) return false;
+        if (behind > kDepth) return true;
+    }
+    return false;
 }
 
 }  // namespace
@@ -233,8 +241,8 @@ TLineResult CLineExtractor::extract(const mrpt::obs::CObservation2DRangeScan& sc
             continue;
         }
         result.loosePoints -= members.size();
-        const TFreeEnds ends{passes(fit, beams, members.front() - 1),  // wraps below 0
-                             passes(fit, beams, members.back() + 1)};
+        const TFreeEnds ends{isEdge(fit, beams, members.front(), -1),
+                             isEdge(fit, beams, members.back(), 1)};
         found.push_back({members.front(), transformed(line, T_r_s), ends});
     }
     std::sort(found.begin(), found.end(),

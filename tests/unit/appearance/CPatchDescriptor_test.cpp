@@ -42,7 +42,7 @@ TEST(CPatchDescriptor, TurnsAnglesCounterClockwiseWithThePicture) {
     for (const auto& p : a)
         for (const auto& q : b) {
             // (x, y) turns to (-y, x)
-            if (std::hypot(q.x + p.y, q.y - p.x) > 0.003 || std::abs(q.scale / p.scale - 1) > 0.05)
+            if (std::hypot(q.x + p.y, q.y - p.x) > 0.01 || std::abs(q.scale / p.scale - 1) > 0.05)
                 continue;
             const double turn = mrpt::math::wrapToPi(q.angle - p.angle - M_PI / 2);
             found += std::abs(turn) < 0.1;

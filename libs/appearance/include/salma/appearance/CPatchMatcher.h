@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <mrpt/core/bits_math.h>
 #include <salma/config/TStrictOptions.h>
 #include <salma/observations/TPatch.h>
 
@@ -12,13 +13,13 @@ namespace salma::appearance {
 
 /// Section [matcher] of config.ini.
 struct TMatcherOptions : public config::TStrictOptions<TMatcherOptions> {
-    double ratio{0.8};               //!< Nearest over second nearest descriptor distance.
-    double scaleTolerance{1.3};      //!< Patches agree in scale within this factor, > 1.
-    double rotationTolerance{0.26};  //!< They agree in rotation within this [rad].
-    double positionTolerance{0.04};  //!< Matches agree on the shift within this [m].
-    int minMatches{4};               //!< Fewer consistent matches score 0.
-    int fullScoreKeypoints{20};      //!< A patch with fewer keypoints cannot score 1.
-    double duplicateRate{0.02};      //!< Share of other entities that look the same.
+    double ratio{0.8};           //!< Nearest over second nearest descriptor distance.
+    double scaleTolerance{1.3};  //!< Patches agree in scale within this factor, > 1.
+    double rotationTolerance{mrpt::DEG2RAD(15.0)};  //!< They agree in rotation within this [rad].
+    double positionTolerance{0.04};                 //!< Matches agree on the shift within this [m].
+    int minMatches{4};                              //!< Fewer consistent matches score 0.
+    int fullScoreKeypoints{20};  //!< A patch with fewer keypoints cannot score 1.
+    double duplicateRate{0.02};  //!< Share of other entities that look the same.
     std::vector<double> scoreKnots{0, 0.1, 0.2, 0.3, 1};  //!< Scores, ascending from 0 to 1.
     std::vector<double> logLrKnots{-3, 0, 1.4, 5.2,
                                    5.2};  //!< log p(score|same)/p(score|other) at each.

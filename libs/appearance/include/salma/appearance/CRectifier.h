@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <mrpt/core/bits_math.h>
 #include <salma/appearance/CWallView.h>
 #include <salma/config/TStrictOptions.h>
 #include <salma/observations/TPatch.h>
@@ -14,16 +15,17 @@ namespace salma::appearance {
 struct TRectificationOptions : public config::TStrictOptions<TRectificationOptions> {
     double minPixelsPerMetre{40};              //!< Coarser views are refused [px/m].
     double maxPixelsPerMetre{400};             //!< Finer views are reduced to this [px/m].
-    double maxIncidence{1.308996938996};       //!< Views more slanting are refused [rad].
+    double maxIncidence{mrpt::DEG2RAD(75.0)};  //!< Views more slanting are refused [rad].
     double minSize{0.05};                      //!< Smallest width and height of a patch [m].
     double maxSize{4};                         //!< Largest width and height of a patch [m].
     double cameraSigma{1};                     //!< Noise of the patch's place in the picture [px].
-    double extrinsicsSigma{0.00872664625997};  //!< Of each angle of the camera on the robot [rad].
-    double extrinsicsSigmaXyz{0.01};           //!< Of each coordinate of the camera [m].
-    double wallSigma{0.01};                    //!< Of rho beside the line's own: poster frames [m].
-    double heightSigma{0.05};  //!< Of z beside what the ray gives: floor, suspension [m].
+    double extrinsicsSigma{
+        mrpt::DEG2RAD(0.5)};          //!< Of each angle of the camera on the robot [rad].
+    double extrinsicsSigmaXyz{0.01};  //!< Of each coordinate of the camera [m].
+    double wallSigma{0.01};           //!< Of rho beside the line's own: poster frames [m].
+    double heightSigma{0.05};         //!< Of z beside what the ray gives: floor, suspension [m].
     double tiltSigma{
-        0.0174532925199};  //!< Of the patch's pitch and roll: walls out of plumb [rad].
+        mrpt::DEG2RAD(1.0)};  //!< Of the patch's pitch and roll: walls out of plumb [rad].
 
     void visit(config::COptionVisitor& v);
     void validate() const;

@@ -11,13 +11,13 @@ namespace salma::laser {
 
 /// Section [corners] of config.ini.
 struct TCornerOptions : public config::TStrictOptions<TCornerOptions> {
-    double minAngle{0.785398163397448};  //!< Walls that meet at less are no corner [rad].
-    double endTolerance{0.06};           //!< A wall's end is at most this far from the corner,
-                                         //!< beside one beam spacing [m].
-    double maxEndDistance{0.25};         //!< Limit of that sum [m].
-    int maxMissingBeams{2};              //!< Beams between the two ends that lie on neither wall.
-    double longSide{0.5};                //!< One of the two walls is at least this long [m].
-    int shortSidePoints{4};              //!< The other has at least this many points.
+    double minAngle{mrpt::DEG2RAD(45.0)};  //!< Walls that meet at less are no corner [rad].
+    double endTolerance{0.06};             //!< A wall's end is at most this far from the corner,
+                                           //!< beside one beam spacing [m].
+    double maxEndDistance{0.25};           //!< Limit of that sum [m].
+    int maxMissingBeams{2};                //!< Beams between the two ends that lie on neither wall.
+    double longSide{0.5};                  //!< One of the two walls is at least this long [m].
+    int shortSidePoints{4};                //!< The other has at least this many points.
     bool lineEnds{false};  //!< Also where a wall of `long_side_m` ends and the view goes on behind.
     double maxSigma{0.08};    //!< Corners less sure than this are refused [m].
     double sigmaFloor{0.01};  //!< Added in quadrature: rounded edges, skirting [m].

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <mrpt/core/bits_math.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <salma/config/TStrictOptions.h>
 #include <salma/laser/TLine.h>
@@ -21,13 +22,13 @@ struct TLineOptions : public config::TStrictOptions<TLineOptions> {
     double maxRange{20};        //!< Longer ranges are not used [m].
     double rangeSigma{0.005};   //!< Noise of a range; the record's own sigma, if larger [m].
     double rangeQuantum{0.01};  //!< Step in which the scanner rounds ranges [m].
-    double bearingSigma{0.000873};  //!< Noise of a beam's direction [rad].
-    int seed{1};                    //!< Of the RANSAC samples.
+    double bearingSigma{mrpt::DEG2RAD(0.05)};  //!< Noise of a beam's direction [rad].
+    int seed{1};                               //!< Of the RANSAC samples.
 
     void visit(config::COptionVisitor& v);
 };
 
-/// Which ends of a line are edges of the wall itself: the next beam passes and goes on farther.
+/// Which ends of a line are edges of the wall itself: the next beams meet something behind it.
 struct TFreeEnds {
     bool from{false};
     bool to{false};
