@@ -31,7 +31,7 @@ struct TPlotFrame {
         max = {std::max(max.x, point.x), std::max(max.y, point.y)};
     }
 
-    /// All but the outer percent on each side: a beam through an open door shall not shrink the
+    /// All but the outer 4 % on each side: beams through doors and windows shall not shrink the
     /// rest.
     void includeMost(const std::vector<mrpt::math::TPoint2D>& points) {
         if (points.empty()) return;
@@ -40,8 +40,8 @@ struct TPlotFrame {
             x.push_back(point.x);
             y.push_back(point.y);
         }
-        include({quantile(x, 0.01), quantile(y, 0.01)});
-        include({quantile(x, 0.99), quantile(y, 0.99)});
+        include({quantile(x, 0.04), quantile(y, 0.04)});
+        include({quantile(x, 0.96), quantile(y, 0.96)});
     }
 
     /// Adds a margin of 4 %, at least half a metre, and widens to `aspect` = width / height.

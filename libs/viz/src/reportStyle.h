@@ -22,7 +22,7 @@ table{border-collapse:collapse;font-variant-numeric:tabular-nums}
 th,td{padding:.35em .9em;text-align:right;border-bottom:1px solid #e5e5e5}
 th:first-child,td:first-child{text-align:left}
 thead th{background:#f4f5f7;font-weight:600}
-.patch{height:88px;width:auto;max-width:180px;display:block}
+.patch{height:88px;width:auto;max-width:180px;display:block;border:1px solid #ccc}
 pre{background:#f4f5f7;padding:1em;overflow-x:auto;font-size:.85em}
 summary{cursor:pointer}
 @media print{details{display:block}body{margin:0}}

@@ -102,6 +102,19 @@ TEST(CPlots, LeavesGapsWhereNothingKnownWasSeen) {
     EXPECT_GT(countColour(plot(seen), kBlue), 50);
 }
 
+TEST(CPlots, SpreadsInnovationsOutWhereStampsDoNotTellTheStepsApart) {
+    slam::TRunRecord record;
+    for (int i = 0; i < 100; ++i) {
+        record.trajectory.emplace_back();
+        record.trajectory.back().time = 5;
+        record.innovations.push_back({5, "range_m", 0.01, 0.1});
+        record.innovations.push_back({5, "bearing_deg", 0.01, 0.1});
+    }
+    const cv::Mat plot = innovationsOf(record);
+    for (int part = 0; part < 4; ++part)
+        EXPECT_GT(countColour(plot(cv::Rect(130 + part * 350, 60, 350, 350)), kBlue), 100) << part;
+}
+
 TEST(CPlots, DrawsAnEmptyRunAndASingleStep) {
     slam::TRunRecord record;
     EXPECT_EQ(mapOf({record, {}}).size(), cv::Size(1600, 1200));
