@@ -7,6 +7,7 @@
 #include <mrpt/serialization/CArchive.h>
 #include <salma/observations/CObservationSalientLandmarks.h>
 
+#include <opencv2/core.hpp>
 #include <ostream>
 
 #include "drawing.h"
@@ -59,8 +60,11 @@ mrpt::opengl::CTexturedPlane::Ptr planeOf(const TPatch& patch) {
     const auto v = static_cast<float>(patch.height / 2);
     auto plane = mrpt::opengl::CTexturedPlane::Create(-u, u, -v, v);
     plane->setPose(patch.pose.mean);
-    if (!patch.picture.isEmpty())
-        plane->assignImage(mrpt::img::CImage(patch.picture, mrpt::img::DEEP_COPY));
+    if (patch.picture.isEmpty()) return plane;
+    // MRPT puts the first row of a texture at the smallest y, which is the lower edge here.
+    cv::Mat upsideDown;
+    cv::flip(patch.picture.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY), upsideDown, 0);
+    plane->assignImage(mrpt::img::CImage(upsideDown, mrpt::img::DEEP_COPY));
     return plane;
 }
 
@@ -133,7 +137,7 @@ void CObservationSalientLandmarks::getVisualizationInto(
         if (!(patch.width > 0 && patch.height > 0)) continue;  // MRPT refuses such a plane
         objects.insert(planeOf(patch));
         objects.insert(frameOf(patch));
-        drawing::insertAxes(objects, patch.pose.mean, 0.1F, "");
+        drawing::insertAxes(objects, patch.pose.mean, 0.2F, "");
     }
 }
 

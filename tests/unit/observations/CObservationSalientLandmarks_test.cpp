@@ -165,5 +165,10 @@ TEST(CObservationSalientLandmarks, DrawsEachPatchAsATexturedPlaneAtItsPose) {
     EXPECT_FLOAT_EQ(yMax, 0.3F);
     EXPECT_LT(record->landmarks[0].pose.mean.distanceTo(mrpt::poses::CPose3D(planes[0]->getPose())),
               1e-9);
-    EXPECT_EQ(planes[0]->getTextureImage().getWidth(), 7U);
+    // MRPT draws the first row of a texture at the bottom: the top row must come last.
+    const auto texture = planes[0]->getTextureImage().asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY);
+    const auto picture = record->landmarks[0].picture.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY);
+    ASSERT_EQ(texture.size(), cv::Size(7, 5));
+    EXPECT_EQ(texture.at<std::uint8_t>(4, 1), picture.at<std::uint8_t>(0, 1));
+    EXPECT_EQ(texture.at<std::uint8_t>(0, 1), picture.at<std::uint8_t>(4, 1));
 }
