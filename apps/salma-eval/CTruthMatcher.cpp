@@ -110,6 +110,7 @@ int CTruthMatcher::matchSalient(const TAssociationRow& row) const {
     int found = -1;
     double least = 1;  // distances count in units of their limit
     for (; sighting != m_truth.sightings.end() && sighting->time <= row.time + skew; ++sighting) {
+        if (sighting->kind != ELandmarkKind::salient) continue;
         const double pixels =
             std::hypot(row.u - sighting->u, row.v - sighting->v) / m_options.maxPixels;
         const double metric = std::max(

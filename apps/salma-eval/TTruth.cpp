@@ -65,11 +65,12 @@ std::vector<TTrueSighting> readSightings(const std::string& file,
         TTrueSighting s;
         s.time = table.number(i, "t_s");
         s.landmark = table.integer(i, "landmark_id");
-        const bool known = std::any_of(landmarks.begin(), landmarks.end(),
-                                       [&](const auto& l) { return l.id == s.landmark; });
-        if (!known) table.fail(i, "landmark_id", "is not among the landmarks");
-        s.u = table.number(i, "u_px");
-        s.v = table.number(i, "v_px");
+        const auto landmark = std::find_if(landmarks.begin(), landmarks.end(),
+                                           [&](const auto& l) { return l.id == s.landmark; });
+        if (landmark == landmarks.end()) table.fail(i, "landmark_id", "is not among the landmarks");
+        s.kind = landmark->kind;
+        s.u = table.numberOrNaN(i, "u_px");
+        s.v = table.numberOrNaN(i, "v_px");
         s.range = table.number(i, "range_m");
         s.bearing = table.number(i, "bearing_deg") * M_PI / 180;
         sightings.push_back(s);

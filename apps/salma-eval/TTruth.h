@@ -18,11 +18,12 @@ struct TTrueLandmark {
     mrpt::math::TPoint2D position;  //!< [m], world of the truth.
 };
 
-/// A true landmark in a picture.
+/// A true landmark as the robot saw it.
 struct TTrueSighting {
-    double time{0};  //!< Of the picture [s since 1970].
+    double time{0};  //!< Of the picture or scan [s since 1970].
     int landmark{0};
-    double u{0}, v{0};  //!< Its centre in the picture [px].
+    association::ELandmarkKind kind{association::ELandmarkKind::salient};
+    double u{0}, v{0};  //!< Its centre in the picture [px]; NaN for a corner.
     double range{0};    //!< [m], from the robot.
     double bearing{0};  //!< [rad], from the robot.
 };

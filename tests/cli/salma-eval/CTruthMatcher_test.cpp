@@ -16,8 +16,11 @@ TTruth truth() {
                    {2, ELandmarkKind::salient, {5, -1}},
                    {3, ELandmarkKind::corner, {3, 1}},
                    {4, ELandmarkKind::corner, {3, 1.4}}};
-    t.sightings = {
-        {10, 1, 100, 200, 4, 0.5}, {10, 2, 400, 200, 4, -0.5}, {11, 1, 100, 200, 4, 0.5}};
+    const auto poster = ELandmarkKind::salient;
+    t.sightings = {{10, 1, poster, 100, 200, 4, 0.5},
+                   {10, 2, poster, 400, 200, 4, -0.5},
+                   {10, 3, ELandmarkKind::corner, std::nan(""), std::nan(""), 9, 0},
+                   {11, 1, poster, 100, 200, 4, 0.5}};
     t.path = viz::TTrajectory{{10, {0, 0, 0}}, {10.5, {1, 0, M_PI / 2}}};
     return t;
 }

@@ -28,7 +28,7 @@ constexpr auto kLandmarks =
     "3,corner,2,0,0.3,,,,\n";
 constexpr auto kSightings =
     "t_s,landmark_id,u_px,v_px,range_m,bearing_deg\n"
-    "10.000000,1,100,200,4,14\n10.000000,2,500,200,4,-14\n"
+    "10.000000,1,100,200,4,14\n10.000000,2,500,200,4,-14\n10.000000,3,,,2,0\n"
     "11.000000,1,110,200,4,14\n11.000000,2,510,200,4,-14\n12.000000,1,120,200,4,14\n";
 constexpr auto kPath =
     "9 0 0 0 0 0 0 1\n9.5 0 0 0 0 0 0 1\n10 0 0 0 0 0 0 1\n10.5 0 0 0 0 0 0 1\n"
@@ -180,7 +180,7 @@ TEST(SalmaEval, NamesFileAndLineOfAMalformedInput) {
               std::string::npos);
     pair.folder.write("truth/loop.sightings.csv",
                       std::string(kSightings) + "13.000000,77,1,2,3,4\n");
-    EXPECT_NE(failure(pair.score()).find("loop.sightings.csv:7: landmark_id = '77'"),
+    EXPECT_NE(failure(pair.score()).find("loop.sightings.csv:8: landmark_id = '77'"),
               std::string::npos);
 }
 
