@@ -44,25 +44,28 @@ void CWorldBuilder::build() {
     addCorners();
 }
 
-std::shared_ptr<const CMipMap> CWorldBuilder::texture(const std::string& name, bool repeats) {
-    auto& found = m_textures[{name, repeats}];
-    if (found) return found;
+const CWorldBuilder::TTexture& CWorldBuilder::texture(const std::string& name, bool repeats) {
+    TTexture& found = m_textures[{name, repeats}];
+    if (found.map) return found;
     cv::Mat picture;
     if (isBuiltInTexture(name)) {
-        picture = paintTexture(name).picture;
+        const TBuiltInTexture painted = paintTexture(name);
+        picture = painted.picture;
+        found.width = painted.width;
     } else {
         const auto file = m_description.file.parent_path() / name;
         picture = cv::imread(file.string(), cv::IMREAD_COLOR);
         if (picture.empty()) throw std::runtime_error(file.string() + ": cannot be read");
     }
-    found = std::make_shared<CMipMap>(picture, repeats);
+    found.map = std::make_shared<CMipMap>(picture, repeats);
     return found;
 }
 
 std::size_t CWorldBuilder::addSurface(const std::string& name, double textureWidth) {
+    const TTexture& tile = texture(name, true);
     TSurface surface;
-    surface.texture = texture(name, true);
-    surface.textureWidth = isBuiltInTexture(name) ? paintTexture(name).width : textureWidth;
+    surface.texture = tile.map;
+    surface.textureWidth = tile.width > 0 ? tile.width : textureWidth;
     m_world.m_surfaces.push_back(surface);
     return m_world.m_surfaces.size() - 1;
 }
@@ -112,7 +115,7 @@ void CWorldBuilder::addWall(const TWall& wall) {
             lintel.u1 = u1;
             lintel.v0 = door.height;
             lintel.surface = surface;
-            const auto wood = texture("wood", false);
+            const auto wood = texture("wood", false).map;
             auto& decals = m_world.m_surfaces[surface].decals;
             decals.push_back({u0 - kFrame, u0, 0, door.height + kFrame, wood});
             decals.push_back({u1, u1 + kFrame, 0, door.height + kFrame, wood});
@@ -141,7 +144,7 @@ void CWorldBuilder::addDoor(const TWall& wall, const TDoor& door, double at) {
     const std::size_t wood = addSurface("wood", 1);
     const std::size_t leaf = addSurface("wood", 1);
     m_world.m_surfaces[leaf].decals.push_back(
-        {0, door.width, 0, door.height, texture(door.texture, false)});
+        {0, door.width, 0, door.height, texture(door.texture, false).map});
 
     const std::size_t first = m_world.m_faces.size();
     addUpright(frontLeft + inwards, right, door.width).surface = leaf;
@@ -196,7 +199,7 @@ void CWorldBuilder::addPoster(const TPoster& poster, TSurface& surface) {
     const double w = poster.width / 2, h = poster.height / 2, b = poster.border;
     if (b > 0) surface.decals.push_back({u - w, u + w, v - h, v + h, plainColour({28, 30, 34})});
     surface.decals.push_back(
-        {u - w + b, u + w - b, v - h + b, v + h - b, texture(poster.texture, false)});
+        {u - w + b, u + w - b, v - h + b, v + h - b, texture(poster.texture, false).map});
     const TWall& wall = m_description.wall(poster.wall);
     const Vector3d left = onFloor(wall.left());
     const Vector3d right = (onFloor(wall.right()) - left) / wall.length();

@@ -23,14 +23,18 @@ class CWorldBuilder {
     bool isCorner(const mrpt::math::TPoint2D& point, std::size_t segment) const;
 
     std::size_t addSurface(const std::string& texture, double textureWidth);
-    std::shared_ptr<const CMipMap> texture(const std::string& name, bool repeats);
+    struct TTexture {
+        std::shared_ptr<const CMipMap> map;
+        double width{0};  //!< Of one tile [m]; 0 for a file, which does not say.
+    };
+    const TTexture& texture(const std::string& name, bool repeats);
     /// Adds an upright face that starts at `left` and runs `length` along `right`.
     TFace& addUpright(const Eigen::Vector3d& left, const Eigen::Vector3d& right, double length);
 
     const TWorld& m_description;
     CWorld& m_world;
-    std::map<std::pair<std::string, bool>, std::shared_ptr<const CMipMap>> m_textures;
-    std::vector<TSegment> m_segments;  //!< At the laser's height.
+    std::map<std::pair<std::string, bool>, TTexture> m_textures;  //!< By name and repeats.
+    std::vector<TSegment> m_segments;                             //!< At the laser's height.
 };
 
 }  // namespace salma::simulator

@@ -130,8 +130,9 @@ TBuiltInTexture panels() {  // of 0.6 m, one lamp to every fourth both ways
 }
 
 TBuiltInTexture marker() {
-    cv::Mat p = filled(512, 512, {255, 255, 255});
-    cv::circle(p, {4088, 4088}, 2400, {0, 0, 0}, cv::FILLED, cv::LINE_AA, 4);
+    cv::Mat p = filled(512, 512, {235, 235, 235});
+    cv::rectangle(p, {0, 0, 256, 256}, {20, 20, 20}, cv::FILLED);
+    cv::rectangle(p, {256, 256, 256, 256}, {20, 20, 20}, cv::FILLED);
     return {p, 0.5};
 }
 

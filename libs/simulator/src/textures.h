@@ -14,7 +14,7 @@ struct TBuiltInTexture {
 };
 
 /// Names that paintTexture() knows: plaster, brick, wood, door, plain, metal, notice, tiles, panels
-/// and marker (a black disc on white, for tests of projection).
+/// and marker (four black and white squares that meet at its centre).
 std::vector<std::string> textureNames();
 
 bool isBuiltInTexture(const std::string& name);
