@@ -128,6 +128,7 @@ std::string CDetectCommand::findSalient(const cv::Mat& grey, const std::string& 
 std::string CDetectCommand::findStable(const cv::Mat& grey, const std::string& prefix) const {
     const auto regions = saliency::CStableRegions(m_config.mser).detect(grey);
     std::vector<saliency::TEllipse> ellipses;
+    ellipses.reserve(regions.size());
     for (const auto& region : regions) ellipses.push_back(region.ellipse);
     saliency::writeRegionsCsv(prefix + ".regions.csv", regions);
     saliency::writeVgg(prefix + ".vgg", ellipses);

@@ -98,7 +98,7 @@ void CSaliencyTile<COUNT>::findPresent(int row, int count) {
     m_present.clear();
     for (std::size_t b = 0; b < m_inRow.size(); ++b) {
         const auto first = m_inRow[b].begin() + row;
-        const auto last = first + count + 2 * m_tables.sMax;
+        const auto last = first + (count + 2 * m_tables.sMax);
         if (std::find(first, last, 1) != last) m_present.push_back(b);
     }
     m_entropyBound = m_tables.log(static_cast<double>(m_present.size()));

@@ -126,22 +126,52 @@ SALMA_INLINE void accumulateImpl(const TScaleTables& tables,
 }
 
 // One pair of functions for each instruction set.
-#define SALMA_KERNELS(NAME, WIDTH, ATTRIBUTE)                                                \
-    template <class COUNT>                                                                   \
-    ATTRIBUTE void discs##NAME(const TScaleTables& tables, const TPlanes<COUNT>& p, int row, \
-                               COUNT* scratch, COUNT* out) {                                 \
-        discsImpl<COUNT, WIDTH>(tables, p, row, scratch, out);                               \
-    }                                                                                        \
-    template <class COUNT>                                                                   \
-    ATTRIBUTE void accumulate##NAME(const TScaleTables& t, const COUNT* discs,               \
-                                    std::uint16_t* counts, int stride, std::int32_t* sums) { \
-        accumulateImpl(t, discs, counts, stride, sums);                                      \
-    }
+template <class COUNT>
+void discsBaseline(
+    const TScaleTables& tables, const TPlanes<COUNT>& planes, int row, COUNT* scratch, COUNT* out) {
+    discsImpl<COUNT, 16>(tables, planes, row, scratch, out);
+}
 
-SALMA_KERNELS(Baseline, 16, )
+template <class COUNT>
+void accumulateBaseline(const TScaleTables& tables,
+                        const COUNT* discs,
+                        std::uint16_t* counts,
+                        int stride,
+                        std::int32_t* change) {
+    accumulateImpl(tables, discs, counts, stride, change);
+}
+
 #ifdef SALMA_X86
-SALMA_KERNELS(Avx2, 32, [[gnu::target("avx2")]])
-SALMA_KERNELS(Avx512, 64, [[gnu::target("avx512bw,avx512vl,prefer-vector-width=512")]])
+template <class COUNT>
+[[gnu::target("avx2")]] void discsAvx2(
+    const TScaleTables& tables, const TPlanes<COUNT>& planes, int row, COUNT* scratch, COUNT* out) {
+    discsImpl<COUNT, 32>(tables, planes, row, scratch, out);
+}
+
+template <class COUNT>
+[[gnu::target("avx2")]] void accumulateAvx2(const TScaleTables& tables,
+                                            const COUNT* discs,
+                                            std::uint16_t* counts,
+                                            int stride,
+                                            std::int32_t* change) {
+    accumulateImpl(tables, discs, counts, stride, change);
+}
+
+template <class COUNT>
+[[gnu::target("avx512bw,avx512vl,prefer-vector-width=512")]] void discsAvx512(
+    const TScaleTables& tables, const TPlanes<COUNT>& planes, int row, COUNT* scratch, COUNT* out) {
+    discsImpl<COUNT, 64>(tables, planes, row, scratch, out);
+}
+
+template <class COUNT>
+[[gnu::target("avx512bw,avx512vl,prefer-vector-width=512")]] void accumulateAvx512(
+    const TScaleTables& tables,
+    const COUNT* discs,
+    std::uint16_t* counts,
+    int stride,
+    std::int32_t* change) {
+    accumulateImpl(tables, discs, counts, stride, change);
+}
 #endif
 
 }  // namespace
