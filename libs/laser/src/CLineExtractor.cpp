@@ -15,8 +15,8 @@ constexpr double kSigmas = 4;         // points of a line lie within so many sig
 constexpr double kEndSigmas = 3;      // at its ends, where another wall begins
 constexpr double kEndRoughness = 0.01;
 constexpr int kRegrowths = 6;
-constexpr double kDepth = 0.06;  // beams that meet something so far behind a wall passed its edge [m]
-constexpr int kEdgeBeams = 4;    // within so many beams: some meet the edge's own face or both sides
+constexpr double kDepth = 0.06;  // a beam that goes on so far behind a wall has passed its edge [m]
+constexpr int kEdgeBeams = 4;    // within so many beams: some meet the edge's own face
 
 using Members = std::vector<std::size_t>;
 
