@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 
 namespace salma::simulator {
 
@@ -79,6 +80,13 @@ class CRenderer::CFrame {
     TRendering m_result;
 };
 
+std::pair<int, int> CRenderer::touched(const std::vector<TBound>& bounds, float low, float high) {
+    const auto touches = [&](const TBound& b) { return b.high >= low && b.low <= high; };
+    const auto begin = std::find_if(bounds.begin(), bounds.end(), touches);
+    const auto end = std::find_if(bounds.rbegin(), bounds.rend(), touches).base();
+    return {static_cast<int>(begin - bounds.begin()), static_cast<int>(end - bounds.begin()) - 1};
+}
+
 CRenderer::CFrame::CFrame(const CRenderer& renderer, const mrpt::poses::CPose3D& T_w_c)
     : m_renderer(renderer),
       m_directions(renderer.m_camera.directions()),
@@ -105,17 +113,10 @@ void CRenderer::CFrame::addView(const TFace& face) {
 
     TView view;
     view.face = &face;
-    const auto range = [](const std::vector<TBound>& bounds, float low, float high, int& first,
-                          int& last) {
-        const auto touches = [&](const TBound& b) { return b.high >= low && b.low <= high; };
-        const auto begin = std::find_if(bounds.begin(), bounds.end(), touches);
-        const auto end = std::find_if(bounds.rbegin(), bounds.rend(), touches).base();
-        first = static_cast<int>(begin - bounds.begin());
-        last = static_cast<int>(end - bounds.begin()) - 1;
-    };
-    range(m_renderer.m_rowBounds, box.min().y(), box.max().y(), view.firstRow, view.lastRow);
-    range(m_renderer.m_columnBounds, box.min().x(), box.max().x(), view.firstColumn,
-          view.lastColumn);
+    std::tie(view.firstRow, view.lastRow) =
+        touched(m_renderer.m_rowBounds, box.min().y(), box.max().y());
+    std::tie(view.firstColumn, view.lastColumn) =
+        touched(m_renderer.m_columnBounds, box.min().x(), box.max().x());
     if (view.firstRow > view.lastRow || view.firstColumn > view.lastColumn) return;
     view.q = (normal / distance).cast<float>();
     view.right = (m_rotation * face.right).cast<float>();

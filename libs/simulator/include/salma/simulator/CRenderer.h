@@ -5,6 +5,7 @@
 #include <salma/simulator/CWorld.h>
 
 #include <opencv2/core/mat.hpp>
+#include <utility>
 #include <vector>
 
 namespace salma::simulator {
@@ -32,6 +33,8 @@ class CRenderer {
     struct TBound {
         float low, high;
     };
+    /// First and last of the bounds that meet [low, high]; the last before the first if none does.
+    static std::pair<int, int> touched(const std::vector<TBound>& bounds, float low, float high);
 
     const CWorld& m_world;
     const CCameraModel& m_camera;

@@ -51,7 +51,7 @@ struct TCameraOptions : public config::TStrictOptions<TCameraOptions> {
     double noise{1.6};                            //!< Sigma of the sensor [grey levels of 255].
     double vignetting{0.12};                      //!< Light lost at the corners [-].
     double latency{0};                            //!< Stamp minus true time of the picture [s].
-    int jpegQuality{78};
+    int jpegQuality{85};
 
     void visit(config::COptionVisitor& v);
     int columns() const { return size == EPictureSize::evi768x492 ? 768 : 640; }
