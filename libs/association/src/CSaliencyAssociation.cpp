@@ -17,23 +17,27 @@ constexpr double noScore = -std::numeric_limits<double>::infinity();
 struct TScored {
     const TPair* pair;
     double score;  //!< log LR + log density [nats]
+    double peak;   //!< The same for an innovation of zero: how sharply geometry predicts [nats].
 };
 
 /// What speaks for the best landmark of a measurement.
 struct TBest {
     std::size_t observation{0};
-    TScored best{nullptr, noScore};
+    TScored best{nullptr, noScore, noScore};
     double lead{0};  //!< Over the strongest rival [nats].
 };
 
 /// Searches the pairings of one step.
 class CBestFirst {
  public:
-    CBestFirst(const TAssociationOptions& options, CGatedStep& step, std::size_t observations)
+    CBestFirst(const TAssociationOptions& options,
+               CGatedStep& step,
+               const std::vector<TMeasurement>& measurements)
         : m_options(options),
           m_step(step),
           m_gate(mrpt::math::chi2inv(options.gateQuantile, 2)),
-          m_scores(observations) {}
+          m_measurements(measurements),
+          m_scores(measurements.size()) {}
 
     void run();
 
@@ -45,10 +49,17 @@ class CBestFirst {
     /// Why the best landmark of a measurement must not be paired; nothing if it may.
     std::optional<EReason> objection(const TBest& candidate) const;
     EReason whyNotScored(std::size_t observation);
+    /// Score of the explanation that a measurement shows a landmark which is not in the map.
+    double otherScore(std::size_t observation) const {
+        return m_measurements[observation].kind == ELandmarkKind::corner
+                   ? m_options.cornerLogDensity
+                   : m_options.salientLogDensity;
+    }
 
     const TAssociationOptions& m_options;
     CGatedStep& m_step;
     double m_gate;
+    const std::vector<TMeasurement>& m_measurements;
     std::vector<std::vector<TScored>> m_scores;
 };
 
@@ -61,7 +72,8 @@ void CBestFirst::score() {
             const auto test = m_step.joint().test(i, pair.landmark);
             if (!test || !(test->distance2 <= m_gate) || !m_step.passesJointGate(*test)) continue;
             const double logRatio = std::isnan(pair.logRatio) ? 0 : pair.logRatio;
-            m_scores[i].push_back({&pair, test->logDensity + logRatio});
+            const double score = test->logDensity + logRatio;
+            m_scores[i].push_back({&pair, score, score + 0.5 * test->distance2});
         }
     }
 }
@@ -83,11 +95,11 @@ TBest CBestFirst::best(std::size_t observation) const {
     const double second = secondBest(observation, landmark);
     result.lead = result.best.score - second;
     // A rival measurement takes the landmark away; each of the two then has its next explanation.
-    const double gain = result.best.score - std::max(second, m_options.otherLogDensity);
+    const double gain = result.best.score - std::max(second, otherScore(observation));
     for (std::size_t k = 0; k < m_scores.size(); ++k)
         for (const TScored& rival : m_scores[k]) {
             if (k == observation || rival.pair->landmark != landmark) continue;
-            const double loss = std::max(secondBest(k, landmark), m_options.otherLogDensity);
+            const double loss = std::max(secondBest(k, landmark), otherScore(k));
             result.lead = std::min(result.lead, gain + loss - rival.score);
         }
     return result;
@@ -95,7 +107,9 @@ TBest CBestFirst::best(std::size_t observation) const {
 
 std::optional<EReason> CBestFirst::objection(const TBest& candidate) const {
     if (candidate.best.pair->logRatio < m_options.acceptLogLr) return EReason::unsureAppearance;
-    if (!(candidate.best.score >= m_options.otherLogDensity)) return EReason::improbable;
+    // Judged by the peak: a limit on the score would be a hidden, narrower gate, and a filter that
+    // only hears of small innovations becomes too sure of itself.
+    if (!(candidate.best.peak >= otherScore(candidate.observation))) return EReason::improbable;
     if (!(candidate.lead >= m_options.margin)) return EReason::ambiguous;
     return {};
 }
@@ -141,7 +155,7 @@ CSaliencyAssociation::CSaliencyAssociation(const TAssociationOptions& options)
 TAssociation CSaliencyAssociation::associate(const TAssociationProblem& problem) const {
     CGatedStep step(m_options, problem);
     step.weighAppearance();
-    CBestFirst(m_options, step, problem.measurements.size()).run();
+    CBestFirst(m_options, step, problem.measurements).run();
     return step.finish();
 }
 

@@ -23,8 +23,10 @@ void TAssociationOptions::visit(config::COptionVisitor& v) {
              "log likelihood ratio up to which appearance excludes a candidate (saliency)");
     v.number("margin", margin, config::atLeast(0),
              "least lead in nats over the second-best explanation (saliency)");
-    v.number("other_log_density", otherLogDensity, config::anyNumber(),
-             "log density of landmarks that are not in the map, per metre and radian (saliency)");
+    v.number("corner_log_density", cornerLogDensity, config::anyNumber(),
+             "log density of corners not in the map, per metre and radian (saliency)");
+    v.number("salient_log_density", salientLogDensity, config::anyNumber(),
+             "the same for salient landmarks (saliency)");
 }
 
 void TAssociationOptions::validate() const {

@@ -20,7 +20,8 @@ class CDataAssociatorTest : public ::testing::TestWithParam<EMethod> {
     TAssociation associate(const TAssociationProblem& problem) const {
         TAssociationOptions options;
         options.method = GetParam();
-        options.otherLogDensity = -10;  // leaves the decision to the gates
+        options.cornerLogDensity = options.salientLogDensity =
+            -10;  // leaves the decision to the gates
         return createAssociator(options)->associate(problem);
     }
 };

@@ -133,20 +133,23 @@ TEST(CSaliencyAssociation, LetsASurePosterTellWhichCornersAreWhich) {
     problem.landmarks.push_back(landmark);
     problem.predictionCovariance = Eigen::MatrixXd::Zero(14, 14);
     test::addCommonError(problem, 1, 0.01);
-    const auto without = CSaliencyAssociation().associate(problem);
+    TAssociationOptions options;
+    options.cornerLogDensity = -10;  // leaves the decision to the margin
+    const CSaliencyAssociation associator(options);
+    const auto without = associator.associate(problem);
     EXPECT_EQ(without.decisions[0].reason, EReason::ambiguous);
     EXPECT_EQ(without.decisions[1].reason, EReason::ambiguous);
 
     problem.measurements.push_back(test::poster(5, -0.5, 0.05));
     problem.logRatio = [](std::size_t, std::size_t) { return 3.0; };
-    const auto with = CSaliencyAssociation().associate(problem);
+    const auto with = associator.associate(problem);
     EXPECT_EQ(with.decisions[2].landmark, 6);
     EXPECT_EQ(with.decisions[0].landmark, 1);  // predicted at 3 m
     EXPECT_EQ(with.decisions[1].landmark, 3);  // predicted at 5 m
 }
 
 TEST(CSaliencyAssociation, DefersALoneCandidateThatAnUnknownLandmarkExplainsAsWell) {
-    // S of 3 m and 1 rad: log N(0) = -log(2 pi 3) = -2.9, below -1.
+    // S of 3 m and 1 rad: log N(0) = -log(2 pi 3) = -2.9, below 4.
     auto problem = test::problem({test::seen(5, 0)}, {{5, 0}});
     test::addCommonError(problem, 3, 1);
     const auto result = CSaliencyAssociation().associate(problem);
@@ -156,7 +159,7 @@ TEST(CSaliencyAssociation, DefersALoneCandidateThatAnUnknownLandmarkExplainsAsWe
 
 TEST(CSaliencyAssociation, DefersTwoMeasurementsThatFitOneLandmarkEquallyWell) {
     const auto result = CSaliencyAssociation().associate(
-        test::problem({test::seen(1.9, 0), test::seen(2.1, 0)}, {{2, 0}}));
+        test::problem({test::seen(1.98, 0, 0.02), test::seen(2.02, 0, 0.02)}, {{2, 0}}));
     for (const TDecision& decision : result.decisions)
         EXPECT_EQ(decision.reason, EReason::ambiguous);
 }

@@ -14,7 +14,9 @@ namespace salma::association {
  *  - it passes the individual and the joint gate, given the pairings before it,
  *  - its log LR reaches `acceptLogLr`, or appearance cannot tell,
  *  - it leads by `margin` over every rival,
- *  - its score exceeds `otherLogDensity`, that of a landmark which is not in the map.
+ *  - geometry predicts it sharply enough: log LR + log N(0) reaches the density of landmarks that
+ *    are not in the map, `cornerLogDensity` or `salientLogDensity`. So a robot that is unsure where
+ *    it is finds itself by posters first, and by corners when these have told it.
  * Landmarks with log LR <= `forbidLogLr` are no candidates and do not stop a new landmark.
  * Source: own. */
 class CSaliencyAssociation : public CDataAssociator {

@@ -17,7 +17,10 @@ struct TAssociationOptions : public config::TStrictOptions<TAssociationOptions> 
     double acceptLogLr{0};           //!< Appearance proves a candidate from here on.
     double forbidLogLr{-2};          //!< Appearance excludes a candidate up to here.
     double margin{3};                //!< Least lead over the second-best candidate [nats].
-    double otherLogDensity{-1};      //!< Log density of landmarks not in the map [1/(m rad)].
+    /// Log densities of landmarks that are not in the map [1/(m rad)]; log LR + log N(0) of a
+    /// pairing must reach them.
+    double cornerLogDensity{4};
+    double salientLogDensity{-3};
 
     void visit(config::COptionVisitor& v);
     /// \throw std::invalid_argument
