@@ -168,7 +168,8 @@ TOutcome drive(std::uint32_t seed, association::EMethod method) {
 }
 
 TEST(Hallway, IsMappedOnceByPostersAndCornersTogether) {
-    for (std::uint32_t seed = 1; seed <= 5; ++seed) {
+    // corner_log_density was chosen on seeds 1 to 5.
+    for (std::uint32_t seed = 6; seed <= 10; ++seed) {
         const TOutcome outcome = drive(seed, association::EMethod::saliency);
         std::cout << "seed " << seed << ": ends at " << outcome.end << " m, odometry at "
                   << outcome.odometryEnd << " m, " << outcome.paired << " pairings" << std::endl;
