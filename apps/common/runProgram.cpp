@@ -8,8 +8,14 @@
 namespace salma::apps {
 namespace {
 
-/// MRPT's exceptions carry a call stack on further lines; a user wants the message.
-std::string firstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
+/// The message of an exception in one line: MRPT's own carry it between a title and a call stack.
+std::string oneLine(const std::string& text) {
+    const std::string title = "==== MRPT exception ====", label = "Message:";
+    std::size_t from = 0;
+    if (text.compare(0, title.size(), title) == 0 && text.find(label) != std::string::npos)
+        from = text.find_first_not_of(" \n", text.find(label) + label.size());
+    return text.substr(from, text.find('\n', from) - from);
+}
 
 }  // namespace
 
@@ -28,7 +34,7 @@ int runProgram(CLI::App& app,
     } catch (const CLI::ParseError& e) {
         return app.exit(e) == 0 ? 0 : 2;
     } catch (const std::exception& e) {
-        std::cerr << app.get_name() << ": " << firstLine(e.what()) << "\n";
+        std::cerr << app.get_name() << ": " << oneLine(e.what()) << "\n";
         return 1;
     }
 }

@@ -33,6 +33,7 @@ CMapping::CMapping(const TSlamConfig& config,
       m_backend(backend),
       m_lines(config.lines),
       m_corners(config.corners),
+      m_walls(config.wallOdometry),
       m_noise(config.odometry) {}
 
 std::vector<CMapping::TEvent> CMapping::events(
@@ -70,16 +71,20 @@ bool CMapping::isDue(const TEvent& event) const {
            std::abs(mrpt::math::wrapToPi(travel.phi())) >= m_config.run.scanTurn;
 }
 
-/// Fills the measurements of `step`; false if the event is none that makes a step.
-bool CMapping::measure(const TEvent& event, slam::TStepInput& step) const {
+/// Fills the measurements of `step` and the walls seen; false if the event is none that makes a
+/// step.
+bool CMapping::measure(const TEvent& event,
+                       slam::TStepInput& step,
+                       std::vector<laser::TLine>& walls) const {
     bool isStep = m_log.actionFormat;
     for (const auto& o : event.observations) {
         if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(o)) {
             if (!isDue(event)) continue;
             isStep = true;
+            const auto lines = m_lines.extract(*scan);
+            walls = lines.lines;
             if (!m_config.run.corners) continue;
-            for (const auto& corner : m_corners.extract(m_lines.extract(*scan)).corners)
-                addCorner(corner, step);
+            for (const auto& corner : m_corners.extract(lines).corners) addCorner(corner, step);
         } else if (const auto seen = std::dynamic_pointer_cast<CObservationSalientLandmarks>(o)) {
             for (const auto& patch : seen->landmarks) addPatch(patch, step);
             isStep = isStep || !seen->landmarks.empty();
@@ -130,13 +135,18 @@ void CMapping::run(const std::vector<CObservationSalientLandmarks::Ptr>& records
     for (const auto& event : all) {
         progress.step();
         slam::TStepInput step;
-        if (!measure(event, step)) continue;
+        std::vector<laser::TLine> walls;
+        if (!measure(event, step, walls)) continue;
         step.time = event.time;
         step.odometry = event.odometry;
         if (first && !event.increment) m_lastOdometry = event.odometry;
         if (first) m_lastTime = event.time;
         first = false;
         step.increment = incrementTo(event);
+        if (!walls.empty())
+            step.increment = m_walls.refine(step.increment, walls);
+        else
+            m_walls.advance(step.increment);
         m_backend.process(step);
         m_lastTime = event.time;
         m_lastOdometry = event.odometry;

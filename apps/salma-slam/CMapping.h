@@ -4,6 +4,7 @@
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <salma/laser/CCornerExtractor.h>
 #include <salma/laser/CLineExtractor.h>
+#include <salma/laser/CWallOdometry.h>
 #include <salma/observations/CLogReader.h>
 #include <salma/observations/CObservationSalientLandmarks.h>
 #include <salma/slam/COdometryNoise.h>
@@ -35,7 +36,9 @@ class CMapping {
     struct TEvent;
     std::vector<TEvent> events(
         const std::vector<observations::CObservationSalientLandmarks::Ptr>& records) const;
-    bool measure(const TEvent& event, slam::TStepInput& step) const;
+    bool measure(const TEvent& event,
+                 slam::TStepInput& step,
+                 std::vector<laser::TLine>& walls) const;
     bool isDue(const TEvent& event) const;
     mrpt::poses::CPosePDFGaussian incrementTo(const TEvent& event);
     void keepPoints(const mrpt::obs::CObservation2DRangeScan& scan, slam::TRunRecord& record) const;
@@ -45,6 +48,7 @@ class CMapping {
     slam::CSlamBackend& m_backend;
     laser::CLineExtractor m_lines;
     laser::CCornerExtractor m_corners;
+    laser::CWallOdometry m_walls;
     slam::COdometryNoise m_noise;
     double m_lastTime{0};                            //!< Of the last step [s].
     mrpt::poses::CPose2D m_lastOdometry;             //!< Of the last step.

@@ -14,6 +14,7 @@ void forEachSection(CONFIG& c, VISITOR visitor) {
     visitor("run", c.run);
     visitor("lines", c.lines);
     visitor("corners", c.corners);
+    visitor("wall_odometry", c.wallOdometry);
     visitor("front_end", c.seeing.frontEnd);
     visitor("saliency", c.seeing.saliency);
     visitor("clustering", c.seeing.clustering);

@@ -6,6 +6,7 @@
 #include <salma/landmarks/CFrontEnd.h>
 #include <salma/laser/CCornerExtractor.h>
 #include <salma/laser/CLineExtractor.h>
+#include <salma/laser/CWallOdometry.h>
 #include <salma/slam/COdometryNoise.h>
 #include <salma/slam/TEkfOptions.h>
 #include <salma/slam/rangeBearing.h>
@@ -33,6 +34,7 @@ struct TSlamConfig {
     TRunOptions run;
     laser::TLineOptions lines;
     laser::TCornerOptions corners;
+    laser::TWallOdometryOptions wallOdometry;
     landmarks::TSeeingOptions seeing;
     appearance::TMatcherOptions matcher;
     association::TAssociationOptions association;

@@ -37,6 +37,9 @@ void TWallOdometryOptions::visit(config::COptionVisitor& v) {
     v.number("min_length_m", minLength, config::moreThan(0), "shorter lines are not compared");
     v.number("gate_quantile", gateQuantile, config::insideOf(0, 1),
              "probability that a wall seen again passes the gate");
+    v.number("slack_m", slack, config::atLeast(0),
+             "added to the gate: odometry errs more than it states");
+    v.degrees("slack_deg", slackTurn, config::between(0, 45), "the same for the turn");
     v.number("rho_sigma_m", rhoSigma, config::atLeast(0),
              "walls are not flat: added to a line's own");
     v.degrees("alpha_sigma_deg", alphaSigma, config::between(0, 45),
@@ -56,6 +59,9 @@ std::vector<CWallOdometry::TMatch> CWallOdometry::match(const std::vector<TLine>
     const Eigen::Matrix2d extra = Eigen::Vector2d(m_options.rhoSigma * m_options.rhoSigma,
                                                   m_options.alphaSigma * m_options.alphaSigma)
                                       .asDiagonal();
+    const Eigen::Matrix2d slack = Eigen::Vector2d(m_options.slack * m_options.slack,
+                                                  m_options.slackTurn * m_options.slackTurn)
+                                      .asDiagonal();
     std::vector<TMatch> result;
     for (const TLine& line : lines) {
         if (!(line.length() >= m_options.minLength)) continue;
@@ -74,7 +80,7 @@ std::vector<CWallOdometry::TMatch> CWallOdometry::match(const std::vector<TLine>
             const double alpha = wall.alpha - m_pose.mean.phi() + (rho < 0 ? M_PI : 0);
             m.innovation = {line.rho - sign * rho, mrpt::math::wrapToPi(line.alpha - alpha)};
             m.R = line.covariance + wall.covariance + extra;
-            const Eigen::Matrix2d S = m.H * P * m.H.transpose() + m.R;
+            const Eigen::Matrix2d S = m.H * P * m.H.transpose() + m.R + slack;
             m.distance2 = m.innovation.dot(S.ldlt().solve(m.innovation));
             if (m.distance2 <= m_gate && (!best || m.distance2 < best->distance2)) best = m;
         }

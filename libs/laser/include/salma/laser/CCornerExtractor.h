@@ -18,7 +18,7 @@ struct TCornerOptions : public config::TStrictOptions<TCornerOptions> {
     int maxMissingBeams{2};                //!< Beams between the two ends that lie on neither wall.
     double longSide{0.5};                  //!< One of the two walls is at least this long [m].
     int shortSidePoints{4};                //!< The other has at least this many points.
-    bool lineEnds{false};  //!< Also where a wall of `long_side_m` ends and the view goes on behind.
+    bool lineEnds{true};  //!< Also where a wall of `long_side_m` ends and the view goes on behind.
     double maxSigma{0.08};    //!< Corners less sure than this are refused [m].
     double sigmaFloor{0.01};  //!< Added in quadrature: rounded edges, skirting [m].
 
