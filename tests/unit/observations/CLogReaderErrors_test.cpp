@@ -209,6 +209,33 @@ TEST(CLogReaderErrors, CountsBeyondTheFileAreRefusedBeforeMrptBelievesThem) {
     EXPECT_TRUE(contains(refusedWith(frames, 17), claim)) << refusedWith(frames, 17);
 }
 
+TEST(CLogReaderErrors, FalseSizesOfMatricesAndVelocitiesAreRefused) {
+    const CTemporaryFolder folder;
+    const auto refusedAt = [&folder](std::string bytes, std::size_t at, const std::string& was) {
+        EXPECT_EQ(bytes.substr(at, was.size()), was);
+        bytes.replace(at, 4, "\xff\xff\xff\x7f");
+        return messageOf(folder.write("h.rawlog", bytes));
+    };
+    const std::string three("\3\0\0\0\3\0\0\0", 8);
+    const auto matrix = test::bytesOf({test::bearings(1, true)});
+    const std::size_t sides = matrix.find("CMatrixD") + 9;
+    EXPECT_TRUE(contains(refusedAt(matrix, sides, three), "claims 6442450941 elements"));
+    const auto motion = test::bytesOf({test::motion3D(mrpt::poses::CPose3D(), 0.1)});
+    const std::string six("\6\0\0\0\0\0\0\0\0\0\6\0\0\0", 14);
+    const std::size_t flags = motion.find(six);
+    EXPECT_TRUE(contains(refusedAt(motion, flags, six), "claims 2147483647 elements"));
+    EXPECT_TRUE(contains(refusedAt(motion, flags + 10, "\6"), "claims 2147483647 elements"));
+}
+
+TEST(CLogReaderErrors, AMovementWhoseDensityIsNoneIsRefused) {
+    const CTemporaryFolder folder;
+    std::string bytes = test::bytesOf({test::motion(CPose2D(1, 0, 0))});
+    // The method of estimation becomes scan matching, but the pose of odometry still follows.
+    bytes[bytes.find("CActionRobotMovement2D") + 23] = 1;
+    const auto message = messageOf(folder.write("m.rawlog", bytes));
+    EXPECT_TRUE(contains(message, "holds a movement without a density")) << message;
+}
+
 TEST(CLogReaderErrors, MutantsOfAnObservationLogAreReadOrRefused) {
     readMutants(observationLog(), 1);
 }
