@@ -53,10 +53,10 @@ void checkLines(const std::string& file, std::istream& in) {
 }  // namespace
 
 std::unique_ptr<mrpt::config::CConfigFile> openStrict(const std::string& file) {
-    if (std::filesystem::is_directory(file))
-        throw std::invalid_argument(file + ": is a folder, not an ini file");
     std::ifstream in(file, std::ios::binary);
     if (!in) throw std::invalid_argument(file + ": no such file, or not readable");
+    if (!std::filesystem::is_regular_file(file))  // it is read twice
+        throw std::invalid_argument(file + ": is not a regular file");
     checkLines(file, in);
     return std::make_unique<mrpt::config::CConfigFile>(file);
 }
