@@ -32,6 +32,7 @@ const std::map<std::string, EPictureSize> kSizes = {{"768x492", EPictureSize::ev
 template <class ENUM>
 std::vector<std::string> namesOf(const std::map<std::string, ENUM>& all) {
     std::vector<std::string> names;
+    names.reserve(all.size());
     for (const auto& entry : all) names.push_back(entry.first);
     return names;
 }

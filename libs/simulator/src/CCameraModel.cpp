@@ -19,7 +19,7 @@ CCameraModel::CCameraModel(const TCameraOptions& options) {
     m_camera.setDistortionPlumbBob(options.k1, options.k2, options.p1, options.p2, options.k3);
     m_camera.focalLengthMeters = 0.0054;  // EVI-D30 at its widest
     m_camera.cameraName = "CAMERA";
-    m_directions.reserve(m_camera.ncols * m_camera.nrows);
+    m_directions.reserve(std::size_t{m_camera.ncols} * m_camera.nrows);
     for (int y = 0; y < this->rows(); ++y)
         for (int x = 0; x < this->columns(); ++x) {
             const Vector2d direction = undistort(Vector2d(x, y));

@@ -45,10 +45,11 @@ cv::Mat_<cv::Vec3f> CImageSensor::smeared(const TRendering& ideal,
     const auto fx = static_cast<float>(m_camera.parameters().fx());
     const auto fy = static_cast<float>(m_camera.parameters().fy());
     cv::Mat_<cv::Vec3f> result = ideal.colour.clone();
+    const auto width = static_cast<std::size_t>(result.cols);
     for (int row = 0; row < result.rows; ++row)
         for (int column = 0; column < result.cols; ++column) {
-            const Vector2f& at =
-                m_camera.directions()[static_cast<std::size_t>(row * result.cols + column)];
+            const Vector2f& at = m_camera.directions()[static_cast<std::size_t>(row) * width +
+                                                       static_cast<std::size_t>(column)];
             const Vector3f r(at.x(), at.y(), 1);
             // motion of the point relative to the camera, over its depth
             const Vector3f rate = -(linear * ideal.inverseDepth(row, column) + angular.cross(r));

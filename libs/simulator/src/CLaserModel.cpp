@@ -28,7 +28,9 @@ double distanceTo(const TSegment& s, const TPoint2D& from, const TPoint2D& direc
     const double distance = cross(start, edge) / across;
     const double along = cross(start, direction) / across;
     const double slack = 1e-9;  // no gap where two segments meet
-    return distance > 0 && along >= -slack && along <= 1 + slack ? distance : kInfinity;
+    const bool inside = along >= -slack && along <= 1 + slack;
+    if (!(distance > 0 && inside)) return kInfinity;
+    return distance;
 }
 
 }  // namespace

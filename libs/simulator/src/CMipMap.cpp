@@ -47,8 +47,8 @@ cv::Vec3f CMipMap::bilinear(std::size_t level, float s, float t) const {
     const float w00 = (1 - fx) * (1 - fy), w01 = fx * (1 - fy), w10 = (1 - fx) * fy, w11 = fx * fy;
     cv::Vec3f colour;
     for (int c = 0; c < 3; ++c)
-        colour[c] =
-            w00 * upper[x0][c] + w01 * upper[x1][c] + w10 * lower[x0][c] + w11 * lower[x1][c];
+        colour[c] = w00 * float(upper[x0][c]) + w01 * float(upper[x1][c]) +
+                    w10 * float(lower[x0][c]) + w11 * float(lower[x1][c]);
     return colour;
 }
 
@@ -61,7 +61,9 @@ cv::Vec3f CMipMap::trilinear(float level, float s, float t) const {
     return bilinear(fine, s, t) * (1 - part) + bilinear(fine + 1, s, t) * part;
 }
 
-cv::Vec3f CMipMap::sample(cv::Vec2f at, cv::Vec2f across, cv::Vec2f down) const {
+cv::Vec3f CMipMap::sample(const cv::Vec2f& at,
+                          const cv::Vec2f& across,
+                          const cv::Vec2f& down) const {
     const cv::Vec2f size(static_cast<float>(columns()), static_cast<float>(rows()));
     const cv::Vec2f a = across.mul(size), b = down.mul(size);  // in texels
     const bool acrossIsLonger = a.dot(a) >= b.dot(b);

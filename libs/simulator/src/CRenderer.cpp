@@ -60,7 +60,8 @@ class CRenderer::CFrame {
     void addView(const TFace& face);
     void fill(const TView& view, short id);
     Vector2f direction(int row, int column) const {
-        return m_directions[static_cast<std::size_t>(row * m_ids.cols + column)];
+        return m_directions[static_cast<std::size_t>(row) * m_width +
+                            static_cast<std::size_t>(column)];
     }
     Vector2f step(int row, int column, int down, int across) const;
     int candidates(int row, int column, std::array<short, 9>& ids) const;
@@ -73,6 +74,7 @@ class CRenderer::CFrame {
 
     const CRenderer& m_renderer;
     const std::vector<Vector2f>& m_directions;
+    const std::size_t m_width;   // of the picture [px]
     Eigen::Matrix3d m_rotation;  // world to camera
     Vector3d m_position;         // of the camera in the world
     std::vector<TView> m_views;
@@ -90,6 +92,7 @@ std::pair<int, int> CRenderer::touched(const std::vector<TBound>& bounds, float 
 CRenderer::CFrame::CFrame(const CRenderer& renderer, const mrpt::poses::CPose3D& T_w_c)
     : m_renderer(renderer),
       m_directions(renderer.m_camera.directions()),
+      m_width(static_cast<std::size_t>(renderer.m_camera.columns())),
       m_rotation(T_w_c.getRotationMatrix().asEigen().transpose()),
       m_position(T_w_c.x(), T_w_c.y(), T_w_c.z()),
       m_ids(renderer.m_camera.rows(), renderer.m_camera.columns(), kNothing) {
@@ -139,7 +142,7 @@ void CRenderer::CFrame::fill(const TView& view, short id) {
         return f[0] * r[0] + f[1] * r[1] + f[2];
     };
     for (int row = view.firstRow; row <= view.lastRow; ++row) {
-        const Vector2f* directions = &m_directions[static_cast<std::size_t>(row * m_ids.cols)];
+        const Vector2f* directions = &m_directions[static_cast<std::size_t>(row) * m_width];
         float* depth = m_result.inverseDepth[row];
         short* ids = m_ids[row];
         for (int column = view.firstColumn; column <= view.lastColumn; ++column) {
@@ -224,9 +227,10 @@ cv::Vec3f CRenderer::CFrame::edgeColour(int row,
     std::array<Vector2f, 9> sum;
     sum.fill(Vector2f::Zero());
     for (int i = 0; i < kSub * kSub; ++i) {
+        const int subRow = i / kSub, subColumn = i % kSub;
         const Vector2f at = direction(row, column) +
-                            across * ((float(i % kSub) + 0.5f) / kSub - 0.5f) +
-                            down * ((float(i / kSub) + 0.5f) / kSub - 0.5f);
+                            across * ((float(subColumn) + 0.5f) / kSub - 0.5f) +
+                            down * ((float(subRow) + 0.5f) / kSub - 0.5f);
         const Vector3f r(at.x(), at.y(), 1);
         float nearest = 0;
         std::size_t best = 9;

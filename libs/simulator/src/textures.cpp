@@ -146,6 +146,7 @@ const std::vector<std::pair<std::string, Painter>> kPainters = {
 
 std::vector<std::string> textureNames() {
     std::vector<std::string> names;
+    names.reserve(kPainters.size());
     for (const auto& painter : kPainters) names.push_back(painter.first);
     return names;
 }

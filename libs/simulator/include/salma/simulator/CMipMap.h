@@ -17,7 +17,7 @@ class CMipMap {
 
     /** Mean colour of the parallelogram around (s, t) that is spanned by `across` and `down`, the
      * steps of (s, t) from this pixel to the next ones. Blue, green, red, 0..255. */
-    cv::Vec3f sample(cv::Vec2f at, cv::Vec2f across, cv::Vec2f down) const;
+    cv::Vec3f sample(const cv::Vec2f& at, const cv::Vec2f& across, const cv::Vec2f& down) const;
 
     int columns() const { return m_levels.front().cols; }
     int rows() const { return m_levels.front().rows; }
