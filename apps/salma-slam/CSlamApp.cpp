@@ -14,7 +14,6 @@
 #include <stdexcept>
 
 #include "CMapping.h"
-#include "COutputFolder.h"
 
 namespace fs = std::filesystem;
 
@@ -48,6 +47,7 @@ void CSlamApp::initialize(const TSlamArguments& arguments) {
     setMethod(arguments.association, m_config.association);
     if (arguments.seed >= 0) m_config.lines.seed = arguments.seed;
     m_config.ekf.ignoreIdentities |= arguments.ignoreIdentities;
+    m_out = std::make_unique<COutputFolder>(arguments.out);  // a bad place is found before the work
     if (m_arguments.rawlog.empty() && !m_config.run.rawlog.empty())
         m_arguments.rawlog =
             (fs::path(arguments.config).parent_path() / m_config.run.rawlog).string();
@@ -143,7 +143,7 @@ void CSlamApp::writeDatabase(const std::string& file) const {
 
 void CSlamApp::run() {
     const auto start = std::chrono::steady_clock::now();
-    COutputFolder out(m_arguments.out);  // an unwritable place is found before the work
+    const COutputFolder& out = *m_out;
     const auto truth = truthOf(m_log.file);
 
     const TSeen seen = CPictureWork(m_config, m_log).run();
@@ -164,7 +164,7 @@ void CSlamApp::run() {
     viz::CRunWriter(out.path()).writeAll({m_record, truth});
     writeDatabase((out / "landmarks.db").string());
     if (m_arguments.saveRawlog) savePictureRecords(seen, out.path().string());
-    out.publish();
+    m_out->publish();
 }
 
 }  // namespace salma::apps

@@ -4,9 +4,11 @@
 #include <salma/observations/CLogReader.h>
 #include <salma/slam/TRunRecord.h>
 
+#include <memory>
 #include <set>
 #include <string>
 
+#include "COutputFolder.h"
 #include "CPictureWork.h"
 #include "TSlamConfig.h"
 
@@ -31,7 +33,7 @@ struct TSlamArguments {
  * Every failure is an exception with a one-line message; then nothing is left at `out`. */
 class CSlamApp {
  public:
-    /// Reads configuration and log. \throw std::exception
+    /// Makes room for the results, reads configuration and log. \throw std::exception
     void initialize(const TSlamArguments& arguments);
 
     /// Works and writes the run folder. \throw std::exception
@@ -47,6 +49,7 @@ class CSlamApp {
     void writeDatabase(const std::string& file) const;
 
     TSlamArguments m_arguments;
+    std::unique_ptr<COutputFolder> m_out;
     TSlamConfig m_config;
     observations::TLog m_log;
     slam::TRunRecord m_record;

@@ -37,14 +37,14 @@ void expectOneLineError(const TProcessResult& result, const std::string& part) {
     EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << result.output;
 }
 
-/// A short simulated log of the corridor, made once for all tests of this program.
-std::string corridorLog() {
+/// A short simulated log, made once for all tests of this program.
+std::string simulatedLog() {
     static const CTemporaryFolder folder;  // removed when the test program ends
-    static const TProcessResult made = runProcess(
-        {program("salma-sim"), SALMA_SOURCE_DIR "/share/worlds/corridor-20x3.ini", "--out",
-         (folder / "sim").string(), "--picture-size", "640x480", "--seed", "5"});
+    static const TProcessResult made =
+        runProcess({program("salma-sim"), SALMA_SOURCE_DIR "/tests/data/worlds/two-posters.ini",
+                    "--out", (folder / "sim").string()});
     EXPECT_EQ(made.exitCode, 0) << made.output;
-    return (folder / "sim/corridor-20x3.rawlog").string();
+    return (folder / "sim/two-posters.rawlog").string();
 }
 
 TEST(SalmaSlam, ShippedConfigHoldsEveryKeyWithItsDefault) {
@@ -125,7 +125,7 @@ TEST(SalmaSlam, RunsOnARealLaserLogWithCornersAlone) {
           "scene.3Dscene", "report.html"})
         EXPECT_TRUE(fs::file_size(folder / ("out/" + file)) > 0) << file;
     const auto summary = nlohmann::json::parse(readFile(folder / "out/summary.json"));
-    EXPECT_EQ(summary.at("steps"), 224);
+    EXPECT_EQ(summary.at("steps"), 225);
     EXPECT_GT(summary.at("landmarks"), 10);
     EXPECT_EQ(summary.at("pictures"), 0);
     expectOneLineError(slam(kConfig, kSena, folder / "none", {"--require", "pictures"}),
@@ -150,12 +150,12 @@ TEST(SalmaSlam, RunsOnARangeBearingLogWithoutLaser) {
     const auto result = slam(kConfig, log, folder / "out");
     ASSERT_EQ(result.exitCode, 0) << result.output;
     const auto summary = nlohmann::json::parse(readFile(folder / "out/summary.json"));
-    EXPECT_EQ(summary.at("steps"), 249);
+    EXPECT_EQ(summary.at("steps"), 250);
     EXPECT_EQ(summary.at("landmarks"), 70) << "known identities";
 }
 
 TEST(SalmaSlam, SeesPostersInASimulatedObservationOnlyLogAndReplaysItsRecords) {
-    const std::string log = corridorLog();
+    const std::string log = simulatedLog();
     const CTemporaryFolder folder;
     const auto seen = slam(kConfig, log, folder / "seen", {"--save-rawlog", "--embed"});
     ASSERT_EQ(seen.exitCode, 0) << seen.output;
@@ -164,7 +164,7 @@ TEST(SalmaSlam, SeesPostersInASimulatedObservationOnlyLogAndReplaysItsRecords) {
     EXPECT_NE(readFile(folder / "seen/landmarks.csv").find("salient"), std::string::npos);
     // the same landmarks without looking at a picture again
     const auto replayed =
-        slam(kConfig, (folder / "seen/corridor-20x3.rawlog").string(), folder / "replayed");
+        slam(kConfig, (folder / "seen/two-posters.rawlog").string(), folder / "replayed");
     ASSERT_EQ(replayed.exitCode, 0) << replayed.output;
     EXPECT_EQ(readFile(folder / "seen/landmarks.csv"), readFile(folder / "replayed/landmarks.csv"));
     EXPECT_EQ(readFile(folder / "seen/trajectory.tum"),
@@ -175,7 +175,7 @@ TEST(SalmaSlam, GivesTheSameResultForAnyNumberOfThreads) {
     const CTemporaryFolder folder;
     for (const std::string threads : {"1", "3"}) {
         const auto ini = folder.write("t.ini", "[run]\nthreads = " + threads + "\n");
-        ASSERT_EQ(slam(ini, corridorLog(), folder / threads).exitCode, 0);
+        ASSERT_EQ(slam(ini, simulatedLog(), folder / threads).exitCode, 0);
     }
     for (const std::string file : {"trajectory.tum", "landmarks.csv", "associations.csv"})
         EXPECT_EQ(readFile(folder / ("1/" + file)), readFile(folder / ("3/" + file))) << file;
@@ -183,7 +183,9 @@ TEST(SalmaSlam, GivesTheSameResultForAnyNumberOfThreads) {
 
 TEST(SalmaSlam, TakesMissingPictureFilesForANotice) {
     const CTemporaryFolder folder;
-    fs::copy(corridorLog(), folder / "bare.rawlog");
+    fs::copy(simulatedLog(), folder / "bare.rawlog");
+    fs::copy(fs::path(simulatedLog()).replace_extension(".salient.rawlog"),
+             folder / "bare.salient.rawlog");
     const auto result = slam(kConfig, (folder / "bare.rawlog").string(), folder / "out");
     EXPECT_EQ(result.exitCode, 0) << result.output;
     EXPECT_NE(result.output.find("pictures are missing"), std::string::npos) << result.output;
@@ -195,8 +197,8 @@ TEST(SalmaSlam, TakesMissingPictureFilesForANotice) {
 
 TEST(SalmaSlam, LeavesNoFolderWhenItIsKilled) {
     const CTemporaryFolder folder;
-    const auto killed = runProcess({"timeout", "-s", "KILL", "1", program("salma-slam"), kConfig,
-                                    corridorLog(), "--out", (folder / "out").string()});
+    const auto killed = runProcess({"timeout", "-s", "KILL", "0.5", program("salma-slam"), kConfig,
+                                    simulatedLog(), "--out", (folder / "out").string()});
     EXPECT_NE(killed.exitCode, 0);
     EXPECT_FALSE(fs::exists(folder / "out"));
 }
