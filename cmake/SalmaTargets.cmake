@@ -4,9 +4,15 @@ set(SALMA_SANITIZE "" CACHE STRING "Sanitizers for every target, e.g. address,un
 add_library(salma_flags INTERFACE)
 target_compile_options(salma_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow)
 if(SALMA_SANITIZE)
-  target_compile_options(salma_flags INTERFACE -fsanitize=${SALMA_SANITIZE} -fno-omit-frame-pointer
-                                               -fno-sanitize-recover=undefined)
-  target_link_options(salma_flags INTERFACE -fsanitize=${SALMA_SANITIZE})
+  # "undefined" leaves out casts of NaN and of large numbers to integers. Assertions of Eigen and of the
+  # standard library find wrong indices that stay inside an allocation.
+  set(SALMA_SANITIZERS ${SALMA_SANITIZE})
+  if(SALMA_SANITIZE MATCHES "undefined")
+    string(APPEND SALMA_SANITIZERS ",float-cast-overflow")
+  endif()
+  target_compile_options(salma_flags INTERFACE -fsanitize=${SALMA_SANITIZERS} -fno-omit-frame-pointer
+                                               -fno-sanitize-recover=all -UNDEBUG -D_GLIBCXX_ASSERTIONS)
+  target_link_options(salma_flags INTERFACE -fsanitize=${SALMA_SANITIZERS})
 endif()
 
 function(salma_require_earlier name)

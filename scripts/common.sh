@@ -2,7 +2,8 @@
 # Steps that scripts/demo and scripts/test share; sourced by them from any folder.
 set -euo pipefail
 SALMA_ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-SALMA_BUILD=${SALMA_BUILD:-$SALMA_ROOT/build}
+SALMA_SANITIZE=${SALMA_SANITIZE:-}
+SALMA_BUILD=${SALMA_BUILD:-$SALMA_ROOT/build${SALMA_SANITIZE:+-sanitized}}
 
 # docs/dependencies.md says why each is there. No recommended packages are pulled in.
 SALMA_PACKAGES=(
@@ -36,12 +37,16 @@ install_packages() {
 
 # build [TARGET...]: configures once, then builds the given targets, or everything.
 build() {
-    local start=$SECONDS targets=()
+    local start=$SECONDS targets=() kind=(-DCMAKE_BUILD_TYPE=Release)
+    if [ -n "$SALMA_SANITIZE" ]; then  # findings name lines; -O2 would only compile longer
+        kind=(-DCMAKE_BUILD_TYPE=RelWithDebInfo "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g1")
+    fi
     if [ $# -gt 0 ]; then targets=(--target "$@"); fi
     mkdir -p "$SALMA_BUILD"
     say "build: ${*:-everything}, into $SALMA_BUILD"
-    cmake -S "$SALMA_ROOT" -B "$SALMA_BUILD" -G Ninja -DCMAKE_BUILD_TYPE=Release \
-        -DCMAKE_CXX_COMPILER_LAUNCHER=ccache >"$SALMA_BUILD/configure.log" 2>&1 || {
+    cmake -S "$SALMA_ROOT" -B "$SALMA_BUILD" -G Ninja "${kind[@]}" \
+        -DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DSALMA_SANITIZE="$SALMA_SANITIZE" \
+        >"$SALMA_BUILD/configure.log" 2>&1 || {
         cat "$SALMA_BUILD/configure.log"
         return 1
     }
