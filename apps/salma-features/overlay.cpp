@@ -62,7 +62,7 @@ cv::Mat drawOverlay(const cv::Mat& grey, const std::vector<observations::TSalien
 cv::Mat drawOverlay(const cv::Mat& grey, const std::vector<saliency::TStableRegion>& regions) {
     cv::Mat picture = inColour(grey);
     for (const auto& region : regions) {
-        const bool dark = region.polarity == saliency::TPolarity::DarkOnBright;
+        const bool dark = region.polarity == saliency::EPolarity::darkOnBright;
         outline(picture, region.ellipse, dark ? cv::Scalar(255, 80, 0) : cv::Scalar(0, 140, 255),
                 1);
     }

@@ -56,7 +56,7 @@ void work(const TScaleTables& tables,
           const cv::Mat& bins,
           double yMin,
           const std::function<TJob*()>& next,
-          TSimd simd) {
+          ESimd simd) {
     CSaliencyTile<COUNT> tile(tables, kernelsFor<COUNT>(simd));
     for (TJob* job = next(); job != nullptr; job = next())
         tile.detect(bins, job->centres, yMin, job->rows.data());
@@ -73,7 +73,7 @@ void TScaleSaliencyOptions::visit(config::COptionVisitor& v) {
     v.integer("scale_min_px", scaleMin, config::between(1, 126), "smallest radius of a disc");
     v.integer("scale_max_px", scaleMax, config::between(3, 128), "largest radius of a disc");
     v.integer("bins", bins, config::between(2, 256), "cells of the histogram of the grey level");
-    v.choice("log_base", logBase, {{"natural", TLogBase::Natural}, {"2", TLogBase::Two}},
+    v.choice("log_base", logBase, {{"natural", ELogBase::natural}, {"2", ELogBase::two}},
              "logarithm of the entropy");
     v.flag("smooth", smooth, "smooth the inter-scale saliency over three scales");
     v.flag("stretch", stretch, "stretch the grey levels of a picture to the full range first");
@@ -88,7 +88,7 @@ void TScaleSaliencyOptions::validate() const {
             " must be at least scale_min_px + 2 = " + std::to_string(scaleMin + 2));
 }
 
-CScaleSaliency::CScaleSaliency(const TScaleSaliencyOptions& options, TSimd simd)
+CScaleSaliency::CScaleSaliency(const TScaleSaliencyOptions& options, ESimd simd)
     : m_options(options), m_simd(simd) {
     m_options.validate();
     m_tables = std::make_shared<const TScaleTables>(m_options);

@@ -35,7 +35,7 @@ TEllipse ellipseOfPixels(const std::vector<cv::Point>& pixels) {
     return ellipseOfMoments(u, v, moments);
 }
 
-TStableRegion describe(const cv::Mat& grey, std::vector<cv::Point> pixels, TPolarity polarity) {
+TStableRegion describe(const cv::Mat& grey, std::vector<cv::Point> pixels, EPolarity polarity) {
     TStableRegion region;
     std::sort(pixels.begin(), pixels.end(), before);
     region.box = cv::boundingRect(pixels);
@@ -78,10 +78,10 @@ std::vector<TStableRegion> CStableRegions::detect(const cv::Mat& grey) const {
     cv::Mat negative;
     cv::bitwise_not(grey, negative);
     std::vector<TStableRegion> regions;
-    for (const TPolarity polarity : {TPolarity::DarkOnBright, TPolarity::BrightOnDark}) {
+    for (const EPolarity polarity : {EPolarity::darkOnBright, EPolarity::brightOnDark}) {
         std::vector<std::vector<cv::Point>> pixels;
         std::vector<cv::Rect> boxes;
-        mser->detectRegions(polarity == TPolarity::DarkOnBright ? negative : grey, pixels, boxes);
+        mser->detectRegions(polarity == EPolarity::darkOnBright ? negative : grey, pixels, boxes);
         const auto first = static_cast<std::ptrdiff_t>(regions.size());
         for (auto& p : pixels) regions.push_back(describe(grey, std::move(p), polarity));
         std::sort(regions.begin() + first, regions.end(), [](const auto& a, const auto& b) {

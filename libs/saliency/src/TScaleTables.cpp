@@ -20,7 +20,7 @@ TScaleTables::TScaleTables(const TScaleSaliencyOptions& options)
       sMax(options.scaleMax),
       bins(options.bins),
       smooth(options.smooth),
-      logTwo(options.logBase == TLogBase::Two ? 1 : std::log(2)) {
+      logTwo(options.logBase == ELogBase::two ? 1 : std::log(2)) {
     countDiscs();
     nLogN.assign(static_cast<std::size_t>(area.back()) + 1, 0);
     for (std::size_t n = 2; n < nLogN.size(); ++n) {

@@ -121,7 +121,7 @@ void writeRegionsCsv(const std::string& file, const std::vector<TStableRegion>& 
     for (const auto& r : regions)
         out << r.ellipse.u << "," << r.ellipse.v << "," << r.ellipse.radius() << ",,,,"
             << r.pixels.size() << "," << r.meanGrey << ","
-            << (r.polarity == TPolarity::DarkOnBright ? "dark" : "bright") << "\n";
+            << (r.polarity == EPolarity::darkOnBright ? "dark" : "bright") << "\n";
     close(out, file);
 }
 

@@ -176,28 +176,28 @@ template <class COUNT>
 
 }  // namespace
 
-TSimd bestSimd() {
+ESimd bestSimd() {
 #ifdef SALMA_X86
     if (__builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl"))
-        return TSimd::AVX512;
-    if (__builtin_cpu_supports("avx2")) return TSimd::AVX2;
+        return ESimd::avx512;
+    if (__builtin_cpu_supports("avx2")) return ESimd::avx2;
 #endif
-    return TSimd::Baseline;
+    return ESimd::baseline;
 }
 
 template <class COUNT>
-TKernels<COUNT> kernelsFor(TSimd simd) {
+TKernels<COUNT> kernelsFor(ESimd simd) {
 #ifdef SALMA_X86
-    const TSimd usable = std::min(simd, bestSimd());
-    if (usable == TSimd::AVX512) return {discsAvx512<COUNT>, accumulateAvx512<COUNT>};
-    if (usable == TSimd::AVX2) return {discsAvx2<COUNT>, accumulateAvx2<COUNT>};
+    const ESimd usable = std::min(simd, bestSimd());
+    if (usable == ESimd::avx512) return {discsAvx512<COUNT>, accumulateAvx512<COUNT>};
+    if (usable == ESimd::avx2) return {discsAvx2<COUNT>, accumulateAvx2<COUNT>};
 #else
     static_cast<void>(simd);
 #endif
     return {discsBaseline<COUNT>, accumulateBaseline<COUNT>};
 }
 
-template TKernels<std::uint8_t> kernelsFor(TSimd simd);
-template TKernels<std::uint16_t> kernelsFor(TSimd simd);
+template TKernels<std::uint8_t> kernelsFor(ESimd simd);
+template TKernels<std::uint16_t> kernelsFor(ESimd simd);
 
 }  // namespace salma::saliency

@@ -39,6 +39,6 @@ struct TKernels {
 };
 
 template <class COUNT>
-TKernels<COUNT> kernelsFor(TSimd simd);
+TKernels<COUNT> kernelsFor(ESimd simd);
 
 }  // namespace salma::saliency

@@ -70,7 +70,7 @@ TScaleSaliencyOptions smallScales() {
 void expectAsReference(const cv::Mat& picture, const TScaleSaliencyOptions& options) {
     const auto reference = test::referenceScaleSaliency(picture, options);
     ASSERT_FALSE(reference.empty());
-    for (const TSimd simd : {TSimd::Baseline, TSimd::AVX2, TSimd::AVX512})
+    for (const ESimd simd : {ESimd::baseline, ESimd::avx2, ESimd::avx512})
         expectSame(CScaleSaliency(options, simd).detect(picture), reference, 1e-11);
 }
 
@@ -123,7 +123,7 @@ TEST(CScaleSaliency, EqualsTheDefinitionForOtherScales) {
 
 TEST(CScaleSaliency, EqualsTheDefinitionInBitsWithoutSmoothingAndStretched) {
     auto options = smallScales();
-    options.logBase = TLogBase::Two;
+    options.logBase = ELogBase::two;
     expectAsReference(texture(40, 37, 7), options);
     options.smooth = false;
     expectAsReference(texture(40, 37, 7), options);

@@ -27,11 +27,11 @@ TEST(CStableRegions, TellsADarkBarFromABrightDisc) {
     const auto regions = CStableRegions(lenient()).detect(barAndDisc());
     ASSERT_EQ(regions.size(), 2u);
     const auto& bar = regions[0];
-    EXPECT_EQ(bar.polarity, TPolarity::DarkOnBright);
+    EXPECT_EQ(bar.polarity, EPolarity::darkOnBright);
     EXPECT_EQ(bar.box, cv::Rect(20, 30, 40, 20));
     EXPECT_EQ(bar.pixels.size(), 800u);
     EXPECT_DOUBLE_EQ(bar.meanGrey, 10);
-    EXPECT_EQ(regions[1].polarity, TPolarity::BrightOnDark);
+    EXPECT_EQ(regions[1].polarity, EPolarity::brightOnDark);
     EXPECT_DOUBLE_EQ(regions[1].meanGrey, 240);
     EXPECT_NEAR(regions[1].ellipse.radius(), 12, 0.7);
 }
@@ -53,7 +53,7 @@ TEST(CStableRegions, SwapsThePolaritiesOfTheNegative) {
     cv::bitwise_not(barAndDisc(), negative);
     const auto regions = CStableRegions(lenient()).detect(negative);
     ASSERT_EQ(regions.size(), 2u);
-    EXPECT_EQ(regions[0].polarity, TPolarity::DarkOnBright);
+    EXPECT_EQ(regions[0].polarity, EPolarity::darkOnBright);
     EXPECT_NEAR(regions[0].ellipse.u, 100, 1e-9);
     EXPECT_EQ(regions[1].box, cv::Rect(20, 30, 40, 20));
 }
@@ -66,7 +66,7 @@ TEST(CStableRegions, LeavesOutRegionsBeyondItsLimitsOfArea) {
     options.maxAreaFraction = 600.0 / 14000;
     const auto regions = CStableRegions(options).detect(barAndDisc());
     ASSERT_EQ(regions.size(), 1u);
-    EXPECT_EQ(regions[0].polarity, TPolarity::BrightOnDark);
+    EXPECT_EQ(regions[0].polarity, EPolarity::brightOnDark);
 }
 
 TEST(CStableRegions, DoesNotJoinPixelsThatShareACornerOnly) {

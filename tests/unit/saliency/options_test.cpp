@@ -33,7 +33,7 @@ TEST(SaliencyOptions, ReadEveryKeyOfDetection) {
     EXPECT_EQ(options.scaleMin, 4);
     EXPECT_EQ(options.scaleMax, 20);
     EXPECT_EQ(options.bins, 32);
-    EXPECT_EQ(options.logBase, TLogBase::Two);
+    EXPECT_EQ(options.logBase, ELogBase::two);
     EXPECT_FALSE(options.smooth);
     EXPECT_TRUE(options.stretch);
     EXPECT_EQ(options.threads, 2);

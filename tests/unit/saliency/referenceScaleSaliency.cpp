@@ -35,11 +35,11 @@ std::vector<double> proportions(const cv::Mat& bins, int cx, int cy, int s, int 
     return p;
 }
 
-double entropy(const std::vector<double>& p, TLogBase base) {
+double entropy(const std::vector<double>& p, ELogBase base) {
     double sum = 0;
     for (const double value : p)
         if (value > 0) sum -= value * std::log(value);
-    return base == TLogBase::Two ? sum / std::log(2) : sum;
+    return base == ELogBase::two ? sum / std::log(2) : sum;
 }
 
 }  // namespace

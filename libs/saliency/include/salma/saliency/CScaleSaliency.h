@@ -12,14 +12,14 @@ namespace salma::saliency {
 
 struct TScaleTables;
 
-enum class TLogBase { Natural, Two };
+enum class ELogBase { natural, two };
 
 /// Section [saliency].
 struct TScaleSaliencyOptions : public config::TStrictOptions<TScaleSaliencyOptions> {
     int scaleMin{3};                      //!< Smallest radius [px]; never the scale of a peak.
     int scaleMax{33};                     //!< Largest radius [px]; never the scale of a peak.
     int bins{16};                         //!< Cells of the histogram of the grey level.
-    TLogBase logBase{TLogBase::Natural};  //!< Unit of the entropy: nat or bit.
+    ELogBase logBase{ELogBase::natural};  //!< Unit of the entropy: nat or bit.
     bool smooth{true};                    //!< Smooth W over three scales, in place.
     bool stretch{false};                  //!< Stretch the picture's greys to 0..255 first.
     int threads{1};                       //!< Threads; the result does not depend on it.
@@ -30,10 +30,10 @@ struct TScaleSaliencyOptions : public config::TStrictOptions<TScaleSaliencyOptio
 };
 
 /// Instruction sets of the fast path; all give the same numbers.
-enum class TSimd { Baseline, AVX2, AVX512 };
+enum class ESimd { baseline, avx2, avx512 };
 
 /// The widest instruction set that both this program and this processor know.
-TSimd bestSimd();
+ESimd bestSimd();
 
 /** Scale saliency of a grey picture: places and radii whose grey levels are most unpredictable.
  *
@@ -46,7 +46,7 @@ class CScaleSaliency {
  public:
     /** \param simd Instruction set, for tests; one the processor lacks is replaced by the best it
      * has. \throw std::invalid_argument */
-    explicit CScaleSaliency(const TScaleSaliencyOptions& options = {}, TSimd simd = bestSimd());
+    explicit CScaleSaliency(const TScaleSaliencyOptions& options = {}, ESimd simd = bestSimd());
 
     /** All entropy peaks whose disc of the largest scale fits into the picture, by row, column,
      * scale.
@@ -61,7 +61,7 @@ class CScaleSaliency {
     cv::Mat quantise(const cv::Mat& grey) const;
 
     TScaleSaliencyOptions m_options;
-    TSimd m_simd;
+    ESimd m_simd;
     std::shared_ptr<const TScaleTables> m_tables;
 };
 

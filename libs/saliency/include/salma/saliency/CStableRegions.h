@@ -20,14 +20,14 @@ struct TStableRegionsOptions : public config::TStrictOptions<TStableRegionsOptio
     void visit(config::COptionVisitor& v);
 };
 
-enum class TPolarity { DarkOnBright, BrightOnDark };
+enum class EPolarity { darkOnBright, brightOnDark };
 
 struct TStableRegion {
     std::vector<cv::Point> pixels;  //!< By row, then column.
     cv::Rect box;                   //!< Smallest upright box that holds all pixels.
     TEllipse ellipse;               //!< Centroid; same second moments as the pixels.
     double meanGrey{0};             //!< 0..255.
-    TPolarity polarity{TPolarity::DarkOnBright};
+    EPolarity polarity{EPolarity::darkOnBright};
 };
 
 /** Maximally stable extremal regions of both polarities, by OpenCV, which joins pixels that share
