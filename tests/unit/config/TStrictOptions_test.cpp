@@ -53,5 +53,38 @@ TEST(TStrictOptions, ReadsBackWhatItWrites) {
     EXPECT_EQ(read.asIni("s"), written.asIni("s"));
 }
 
+struct TPlainOptions : public TStrictOptions<TPlainOptions> {
+    double length{1};
+    int count{2};
+    std::vector<double> knots{0, 1};
+
+    void visit(COptionVisitor& v) {
+        v.number("length_m", length, moreThan(0), "length");
+        v.integer("count", count, between(1, 3), "how many");
+        v.numbers("knots", knots, between(0, 1), "places");
+    }
+};
+
+TEST(TStrictOptions, ChecksRangesOfValuesThatCameFromNoFile) {
+    EXPECT_NO_THROW(TPlainOptions().validate());
+    const auto problem = [](const TPlainOptions& options) -> std::string {
+        try {
+            options.validate();
+        } catch (const std::invalid_argument& e) {
+            return e.what();
+        }
+        return "none";
+    };
+    TPlainOptions options;
+    options.length = 0;
+    EXPECT_EQ(problem(options), "length_m = 0 is outside (0, inf)");
+    options = {};
+    options.count = 4;
+    EXPECT_EQ(problem(options), "count = 4 is outside [1, 3]");
+    options = {};
+    options.knots = {0.5, std::nan("")};
+    EXPECT_EQ(problem(options), "knots = nan is outside [0, 1]");
+}
+
 }  // namespace
 }  // namespace salma::config

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <mrpt/config/CLoadableOptions.h>
+#include <salma/config/CRangeCheck.h>
 #include <salma/config/CSectionWriter.h>
 #include <salma/config/CStrictSection.h>
 
@@ -12,7 +13,8 @@ namespace salma::config {
 /** Base of the options of one component, `struct TFooOptions : TStrictOptions<TFooOptions>`.
  *
  * DERIVED has defaults in its fields, a `void visit(COptionVisitor&)` that lists its keys, and may
- * hide `void validate() const` for what involves several keys (throws std::invalid_argument). */
+ * hide `void validate() const` for what involves several keys (throws std::invalid_argument; begins
+ * with checkRanges()). */
 template <class DERIVED>
 struct TStrictOptions : public mrpt::config::CLoadableOptions {
     /// All or nothing. \throw std::invalid_argument naming file, section, key and value.
@@ -37,9 +39,16 @@ struct TStrictOptions : public mrpt::config::CLoadableOptions {
 
     void dumpToTextStream(std::ostream& out) const override { out << asIni("options"); }
 
-    void validate() const {}
+    void validate() const { checkRanges(); }
 
  protected:
+    /// \throw std::invalid_argument naming the first key whose value is out of range.
+    void checkRanges() const {
+        CRangeCheck check;
+        DERIVED copy = self();
+        copy.visit(check);
+    }
+
     const DERIVED& self() const { return static_cast<const DERIVED&>(*this); }
 };
 
