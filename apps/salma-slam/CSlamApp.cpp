@@ -7,10 +7,14 @@
 #include <salma/observations/registerClasses.h>
 #include <salma/slam/CSalientEKF2D.h>
 #include <salma/viz/CRunWriter.h>
+#include <salma/viz/CTrajectoryScore.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <iomanip>
 #include <iostream>
+#include <sstream>
 #include <stdexcept>
 
 #include "CMapping.h"
@@ -57,6 +61,7 @@ void CSlamApp::initialize(const TSlamArguments& arguments) {
     observations::TLogReaderOptions options;
     options.acceptTruncated = arguments.acceptTruncated;
     m_log = observations::readLog(m_arguments.rawlog, options);
+    m_truth = truthOf(m_arguments.rawlog);
     m_record.logFile = m_arguments.rawlog;
     m_record.seed = static_cast<std::uint32_t>(m_config.lines.seed);
     m_record.options = m_config.asIni();
@@ -144,7 +149,6 @@ void CSlamApp::writeDatabase(const std::string& file) const {
 void CSlamApp::run() {
     const auto start = std::chrono::steady_clock::now();
     const COutputFolder& out = *m_out;
-    const auto truth = truthOf(m_log.file);
 
     const TSeen seen = CPictureWork(m_config, m_log).run();
     noticeOfPictures(seen);
@@ -161,10 +165,40 @@ void CSlamApp::run() {
     m_record.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
-    viz::CRunWriter(out.path()).writeAll({m_record, truth});
+    viz::CRunWriter(out.path()).writeAll({m_record, m_truth});
     writeDatabase((out / "landmarks.db").string());
     if (m_arguments.saveRawlog) savePictureRecords(seen, out.path().string());
     m_out->publish();
+}
+
+std::string CSlamApp::accuracy() const {
+    std::ostringstream text;
+    const viz::CTrajectoryScore score;
+    const auto error = [&](const viz::TTrajectory& path) {
+        return score.compare(*m_truth, path).aligned.rmse;
+    };
+    try {
+        text << std::fixed << std::setprecision(3) << "ATE " << error(viz::estimatedPath(m_record))
+             << " m, odometry alone " << error(viz::odometryPath(m_record)) << " m\n";
+    } catch (const std::invalid_argument& e) {  // the run is whole without it
+        return std::string("not compared with the true path: ") + e.what() + "\n";
+    }
+    return text.str();
+}
+
+std::string CSlamApp::summary() const {
+    std::ostringstream text;
+    const auto counts = viz::countDecisions(m_record);
+    const auto salient =
+        std::count_if(m_record.landmarks.begin(), m_record.landmarks.end(),
+                      [](const auto& l) { return l.kind == association::ELandmarkKind::salient; });
+    text << m_record.trajectory.size() << " steps, " << salient << " salient landmarks, "
+         << m_record.landmarks.size() - static_cast<std::size_t>(salient) << " corners; paired "
+         << counts.paired << ", new " << counts.created << ", deferred " << counts.deferred
+         << ", clutter " << counts.clutter << "\n";
+    if (m_truth) text << accuracy();
+    text << "report " << m_arguments.out << "/report.html\n";
+    return text.str();
 }
 
 }  // namespace salma::apps

@@ -3,8 +3,10 @@
 
 #include <salma/observations/CLogReader.h>
 #include <salma/slam/TRunRecord.h>
+#include <salma/viz/TTrajectory.h>
 
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -39,9 +41,11 @@ class CSlamApp {
     /// Works and writes the run folder. \throw std::exception
     void run();
 
-    const slam::TRunRecord& record() const { return m_record; }
+    /// A few lines on what came out, with the error where the true path is known.
+    std::string summary() const;
 
  private:
+    std::string accuracy() const;
     void noticeWhatIsMissing();
     void noticeOfPictures(const TSeen& seen);
     void notice(const std::string& text);
@@ -52,6 +56,7 @@ class CSlamApp {
     std::unique_ptr<COutputFolder> m_out;
     TSlamConfig m_config;
     observations::TLog m_log;
+    std::optional<viz::TTrajectory> m_truth;  //!< X.gt.tum beside X.rawlog, if it is there.
     slam::TRunRecord m_record;
 };
 

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // salma-slam: reads a rawlog, finds and associates landmarks, leaves trajectory, map and report.
-#include <salma/viz/CRunWriter.h>
-
 #include <iostream>
 
 #include "CSlamApp.h"
@@ -49,11 +47,6 @@ int main(int argc, char** argv) {
             salma::apps::CSlamApp slam;
             slam.initialize(arguments);
             slam.run();
-            const auto& record = slam.record();
-            const auto counts = salma::viz::countDecisions(record);
-            std::cout << record.trajectory.size() << " steps, " << record.landmarks.size()
-                      << " landmarks; paired " << counts.paired << ", new " << counts.created
-                      << ", deferred " << counts.deferred << ", clutter " << counts.clutter
-                      << "\nreport " << arguments.out << "/report.html\n";
+            std::cout << slam.summary();
         });
 }

@@ -63,13 +63,6 @@ std::size_t countKind(const slam::TRunRecord& record, ELandmarkKind kind) {
                                                   [&](const auto& l) { return l.kind == kind; }));
 }
 
-TTrajectory estimateOf(const slam::TRunRecord& record, bool odometry) {
-    TTrajectory trajectory;
-    for (const auto& row : record.trajectory)
-        trajectory.push_back({row.time, odometry ? row.odometry : row.pose});
-    return trajectory;
-}
-
 std::string scoreRow(const std::string& name, const TTrajectoryFigures& f) {
     return "<tr><th scope=\"row\">" + name + "</th>" + cell(fixed(f.aligned.rmse, 3)) +
            cell(fixed(f.aligned.mean, 3)) + cell(fixed(f.aligned.max, 3)) +
@@ -182,8 +175,8 @@ std::string CReport::accuracy() const {
     std::string rows;
     try {
         const auto& record = m_input.record;
-        rows = scoreRow("estimate", score.compare(*m_input.truth, estimateOf(record, false)));
-        rows += scoreRow("odometry alone", score.compare(*m_input.truth, estimateOf(record, true)));
+        rows = scoreRow("estimate", score.compare(*m_input.truth, estimatedPath(record)));
+        rows += scoreRow("odometry alone", score.compare(*m_input.truth, odometryPath(record)));
     } catch (const std::invalid_argument& e) {
         return "<h2>Against the true path</h2>\n<p>Not compared: " + escapeHtml(e.what()) +
                ".</p>\n";

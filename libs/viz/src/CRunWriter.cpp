@@ -79,13 +79,6 @@ Cells cellsOf(const slam::TInnovationRow& i) {
     return {stamp(i.time), i.component, number(i.value), number(i.sigma)};
 }
 
-void writeTrajectory(const TRunRecord& record, const std::string& file) {
-    TTrajectory trajectory;
-    trajectory.reserve(record.trajectory.size());
-    for (const auto& row : record.trajectory) trajectory.push_back({row.time, row.pose});
-    writeTum(trajectory, file);
-}
-
 void writeSummary(const TRunRecord& record, const std::string& file) {
     const TDecisionCounts counts = countDecisions(record);
     nlohmann::ordered_json json;
@@ -108,6 +101,18 @@ void writeSummary(const TRunRecord& record, const std::string& file) {
 }
 
 }  // namespace
+
+TTrajectory estimatedPath(const TRunRecord& record) {
+    TTrajectory path;
+    for (const auto& row : record.trajectory) path.push_back({row.time, row.pose});
+    return path;
+}
+
+TTrajectory odometryPath(const TRunRecord& record) {
+    TTrajectory path;
+    for (const auto& row : record.trajectory) path.push_back({row.time, row.odometry});
+    return path;
+}
 
 TDecisionCounts countDecisions(const TRunRecord& record) {
     TDecisionCounts counts;
@@ -177,7 +182,7 @@ std::vector<std::string> innovationColumns() { return {"t_s", "component", "valu
 CRunWriter::CRunWriter(std::filesystem::path folder) : m_folder(std::move(folder)) {}
 
 void CRunWriter::writeTables(const TRunRecord& r) const {
-    writeTrajectory(r, (m_folder / "trajectory.tum").string());
+    writeTum(estimatedPath(r), (m_folder / "trajectory.tum").string());
     writeCsv(m_folder / "landmarks.csv", landmarkColumns(), r.landmarks.size(),
              [&](std::size_t i) { return cellsOf(r.landmarks[i]); });
     writeCsv(m_folder / "associations.csv", associationColumns(), r.associations.size(),

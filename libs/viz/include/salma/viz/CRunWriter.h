@@ -17,6 +17,10 @@ struct TReportInput {
     std::optional<TTrajectory> truth;  //!< In any frame: it is aligned with the estimate.
 };
 
+/// The path of a run as the filter estimated it, and by odometry alone.
+TTrajectory estimatedPath(const slam::TRunRecord& record);
+TTrajectory odometryPath(const slam::TRunRecord& record);
+
 /// How often each decision was taken.
 struct TDecisionCounts {
     std::size_t paired{0}, created{0}, deferred{0}, clutter{0}, relocated{0}, provisional{0};
