@@ -11,6 +11,9 @@
 namespace salma::laser {
 namespace {
 
+/// Walls side by side over less than this may only touch: odometry slips [m].
+constexpr double kOverlap = 0.15;
+
 /// Distance over which two walls lie side by side, negative for a gap between them [m].
 double overlap(const TLine& a, const TLine& b) {
     const auto along = [&](const mrpt::math::TPoint2D& p) {
@@ -29,7 +32,6 @@ struct CWallOdometry::TMatch {
     Eigen::Vector2d innovation;
     Eigen::Matrix2d R;
     double distance2{0};
-    std::size_t reference{0};
 };
 
 void TWallOdometryOptions::visit(config::COptionVisitor& v) {
@@ -49,16 +51,37 @@ void TWallOdometryOptions::visit(config::COptionVisitor& v) {
     v.degrees("max_turn_deg", maxTurn, config::between(1, 180), "or after this turn");
 }
 
-CWallOdometry::CWallOdometry(const TWallOdometryOptions& options)
-    : m_options(options), m_gate(mrpt::math::chi2inv(options.gateQuantile, 2)) {}
+CWallOdometry::CWallOdometry(const TWallOdometryOptions& options) : m_options(options) {
+    m_options.validate();
+    m_gate = mrpt::math::chi2inv(m_options.gateQuantile, 2);
+}
 
 void CWallOdometry::advance(const mrpt::poses::CPosePDFGaussian& increment) { m_pose += increment; }
 
-std::vector<CWallOdometry::TMatch> CWallOdometry::match(const std::vector<TLine>& lines) const {
-    const Eigen::Matrix3d P = m_pose.cov.asEigen();
+/// How a line differs from what it would be as a wall of the reference.
+CWallOdometry::TMatch CWallOdometry::compare(const TLine& line, const TLine& wall) const {
+    const double x = m_pose.mean.x(), y = m_pose.mean.y();
+    const double c = std::cos(wall.alpha), s = std::sin(wall.alpha);
+    const double rho = wall.rho - x * c - y * s;
+    const double alpha = wall.alpha - m_pose.mean.phi();
+    // Once the robot has crossed the wall's line it looks at it from the other side. The direction
+    // tells which, even where the distance is too small to.
+    const double sign = std::cos(line.alpha - alpha) < 0 ? -1 : 1;
+    TMatch m;
+    m.H << -sign * c, -sign * s, 0, 0, 0, -1;
+    m.innovation = {line.rho - sign * rho,
+                    mrpt::math::wrapToPi(line.alpha - alpha - (sign < 0 ? M_PI : 0))};
+    Eigen::Matrix2d byWall;  // of the predicted (rho, alpha) by the wall's own
+    byWall << sign, sign * (x * s - y * c), 0, 1;
     const Eigen::Matrix2d extra = Eigen::Vector2d(m_options.rhoSigma * m_options.rhoSigma,
                                                   m_options.alphaSigma * m_options.alphaSigma)
                                       .asDiagonal();
+    m.R = line.covariance + extra + byWall * wall.covariance * byWall.transpose();
+    return m;
+}
+
+std::vector<CWallOdometry::TMatch> CWallOdometry::match(const std::vector<TLine>& lines) const {
+    const Eigen::Matrix3d P = m_pose.cov.asEigen();
     const Eigen::Matrix2d slack = Eigen::Vector2d(m_options.slack * m_options.slack,
                                                   m_options.slackTurn * m_options.slackTurn)
                                       .asDiagonal();
@@ -67,19 +90,10 @@ std::vector<CWallOdometry::TMatch> CWallOdometry::match(const std::vector<TLine>
         if (!(line.length() >= m_options.minLength)) continue;
         const TLine placed = transformed(line, m_pose.mean);
         std::optional<TMatch> best;
-        for (std::size_t k = 0; k < m_reference.size(); ++k) {
-            const TLine& wall = m_reference[k];
-            if (!(overlap(wall, placed) > 0)) continue;
-            const double c = std::cos(wall.alpha), s = std::sin(wall.alpha);
-            TMatch m;
-            m.reference = k;
-            m.H << -c, -s, 0, 0, 0, -1;
-            const double rho = wall.rho - m_pose.mean.x() * c - m_pose.mean.y() * s;
-            const double sign = rho < 0 ? -1 : 1;  // the robot has crossed the wall's line
-            m.H.row(0) *= sign;
-            const double alpha = wall.alpha - m_pose.mean.phi() + (rho < 0 ? M_PI : 0);
-            m.innovation = {line.rho - sign * rho, mrpt::math::wrapToPi(line.alpha - alpha)};
-            m.R = line.covariance + wall.covariance + extra;
+        for (const TLine& wall : m_reference) {
+            // A door's leaf only touches the wall beside it where odometry has slipped.
+            if (!(overlap(wall, placed) >= kOverlap)) continue;
+            TMatch m = compare(line, wall);
             const Eigen::Matrix2d S = m.H * P * m.H.transpose() + m.R + slack;
             m.distance2 = m.innovation.dot(S.ldlt().solve(m.innovation));
             if (m.distance2 <= m_gate && (!best || m.distance2 < best->distance2)) best = m;

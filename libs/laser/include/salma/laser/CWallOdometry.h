@@ -14,10 +14,10 @@ namespace salma::laser {
 /// Section [wall_odometry] of config.ini.
 struct TWallOdometryOptions : public config::TStrictOptions<TWallOdometryOptions> {
     bool use{true};                 //!< Off: odometry stays as it is.
-    double minLength{0.8};          //!< Shorter lines are not compared [m].
+    double minLength{0.6};          //!< Shorter lines are not compared [m].
     double gateQuantile{0.99};      //!< Probability that a wall seen again passes the gate.
     double slack{0.04};             //!< Added to the gate: odometry errs more than it states [m].
-    double slackTurn{M_PI / 90};    //!< The same for the turn [rad].
+    double slackTurn{M_PI / 30};    //!< The same for the turn [rad].
     double rhoSigma{0.01};          //!< Added to a line's own sigma: walls are not flat [m].
     double alphaSigma{M_PI / 900};  //!< Added to a line's own sigma: walls are not straight [rad].
     double maxTravel{3};            //!< The reference scan is renewed after this travel [m] ...
@@ -31,9 +31,9 @@ struct TWallOdometryOptions : public config::TStrictOptions<TWallOdometryOptions
  * A wall seen from two poses tells the turn between them and the motion square to it; along a
  * corridor odometry keeps its word, for nothing there says more. The reference scan stays as long
  * as its walls are seen, so that errors do not add up from scan to scan. One Kalman update per scan
- * on the pose since the reference, linear in it: rho' = rho - x cos(alpha) - y sin(alpha),   alpha'
- * = alpha - heading. Source: own; line model as in G. Borges and M. Aldon, J. Intell. Robotic Syst.
- * 40, 2004. */
+ * on the pose since the reference, linear in it:
+ * rho' = rho - x cos(alpha) - y sin(alpha), alpha' = alpha - heading.
+ * Source: own; line model as in G. Borges and M. Aldon, J. Intell. Robotic Syst. 40, 2004. */
 class CWallOdometry {
  public:
     /// \throw std::invalid_argument if the options are out of range.
@@ -53,12 +53,13 @@ class CWallOdometry {
 
  private:
     struct TMatch;
+    TMatch compare(const TLine& line, const TLine& wall) const;
     std::vector<TMatch> match(const std::vector<TLine>& lines) const;
     void update(const std::vector<TMatch>& matches, Eigen::Matrix3d& incrementCovariance);
     void renew(const std::vector<TLine>& lines);
 
     TWallOdometryOptions m_options;
-    double m_gate;
+    double m_gate{0};                      //!< Limit of the squared Mahalanobis distance.
     std::vector<TLine> m_reference;        //!< Walls of the reference scan, in its frame.
     mrpt::poses::CPosePDFGaussian m_pose;  //!< T_ref_r.
     std::size_t m_matched{0};
