@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <mrpt/core/bits_math.h>
 #include <mrpt/poses/CPosePDFGaussian.h>
 #include <salma/config/TStrictOptions.h>
 
@@ -8,12 +9,12 @@ namespace salma::slam {
 
 /// Section [odometry] of config.ini: standard deviations after one metre and after one radian.
 struct TOdometryOptions : public config::TStrictOptions<TOdometryOptions> {
-    double alongPerMetre{0.05};     //!< In the direction of travel, after one metre [m].
-    double acrossPerMetre{0.02};    //!< Sideways, after one metre [m].
-    double headingPerMetre{0.021};  //!< After one metre [rad].
-    double headingPerRadian{0.03};  //!< After one radian of turning [rad].
-    double minPosition{1e-4};       //!< Added in each step in which the robot moves [m].
-    double minHeading{1e-4};        //!< Added in each step in which the robot moves [rad].
+    double alongPerMetre{0.05};   //!< In the direction of travel, after one metre [m].
+    double acrossPerMetre{0.02};  //!< Sideways, after one metre [m].
+    double headingPerMetre{mrpt::DEG2RAD(1.2)};   //!< After one metre [rad].
+    double headingPerRadian{mrpt::DEG2RAD(1.7)};  //!< After one radian of turning [rad].
+    double minPosition{1e-4};                 //!< Added in each step in which the robot moves [m].
+    double minHeading{mrpt::DEG2RAD(0.005)};  //!< The same for the heading [rad].
 
     void visit(config::COptionVisitor& v);
 };

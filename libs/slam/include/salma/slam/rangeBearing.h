@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <mrpt/core/bits_math.h>
 #include <mrpt/obs/CObservationBearingRange.h>
 #include <salma/association/TMeasurement.h>
 #include <salma/config/TStrictOptions.h>
@@ -11,8 +12,8 @@ namespace salma::slam {
 
 /// Section [range_bearing] of config.ini: noise of range-bearing records that state none.
 struct TRangeBearingOptions : public config::TStrictOptions<TRangeBearingOptions> {
-    double sigmaRange{0.1};        //!< [m]
-    double sigmaBearing{0.00873};  //!< [rad]
+    double sigmaRange{0.1};                   //!< [m]
+    double sigmaBearing{mrpt::DEG2RAD(0.5)};  //!< [rad]
 
     void visit(config::COptionVisitor& v);
 };
