@@ -2,154 +2,186 @@
 #include <salma/landmarks/CBorderFinder.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
-#include <vector>
+#include <utility>
+
+#include "CLineSupport.h"
 
 namespace salma::landmarks {
 namespace {
 
-/// Contrast across vertical lines: change per pixel along x; negative where not known.
-cv::Mat contrastAcross(const cv::Mat& wall, const cv::Mat& valid) {
-    cv::Mat smooth, change, unknown;
-    cv::GaussianBlur(wall, smooth, {3, 3}, 0.8);
-    cv::Sobel(smooth, change, CV_32F, 1, 0, 3, 1.0 / 8);
-    change = cv::abs(change);
-    cv::erode(valid, unknown, cv::Mat::ones(3, 3, CV_8U));
-    change.setTo(-1, unknown == 0);
-    return change;
-}
+/// A side's continuation is judged over this length, and a side's outside over this width [m].
+constexpr double kBeyond = 0.12, kOutsideFrom = 0.02, kOutsideTo = 0.05;
 
-/// One line across the search direction: the contrast that all but `quantile` of its pixels reach.
-double lineContrast(const cv::Mat& change, int column, cv::Range rows, double quantile) {
-    std::vector<float> values;
-    for (int y = rows.start; y < rows.end; ++y) {
-        // the edge may wander by a pixel: camera and laser are not perfectly joined
-        float best = change.at<float>(y, column);
-        if (best < 0) continue;
-        for (const int x : {column - 1, column + 1})
-            if (x >= 0 && x < change.cols) best = std::max(best, change.at<float>(y, x));
-        values.push_back(best);
-    }
-    if (static_cast<int>(values.size()) * 10 < rows.size() * 9 || values.empty()) return 0;
-    const auto nth = values.begin() + static_cast<long>(quantile * (values.size() - 1));
-    std::nth_element(values.begin(), nth, values.end());
-    return *nth;
-}
+/// A region may be centred on the frame [m].
+constexpr double kRim = 0.04;
 
-struct TSearch {
-    int inside;   //!< Column to begin with.
-    int outside;  //!< Last column.
+/// Where the sides across one axis may lie: from `first` (outermost) to `last` [px].
+struct TSpan {
+    double lowFirst, lowLast, highFirst, highLast;
 };
 
-/// The first line from inside to outside that stands out.
-std::optional<int> findSide(const cv::Mat& change,
-                            cv::Range rows,
-                            TSearch search,
-                            const TBorderOptions& options) {
-    const int step = search.outside < search.inside ? -1 : 1;
-    std::vector<double> contrast;
-    for (int x = search.inside; x != search.outside + step; x += step)
-        contrast.push_back(lineContrast(change, x, rows, options.quantile));
-    const double best = *std::max_element(contrast.begin(), contrast.end());
-    if (!(best >= options.contrast)) return std::nullopt;
-    const double enough = std::max(options.contrast, options.dominance * best);
-    std::size_t i = 0;
-    while (contrast[i] < enough) ++i;
-    while (i + 1 < contrast.size() && contrast[i + 1] > contrast[i]) ++i;  // up to the crest
-    std::size_t last = i;
-    while (last + 1 < contrast.size() && contrast[last + 1] == contrast[i]) ++last;
-    return search.inside + step * static_cast<int>((i + last) / 2);
+/// A side lies outside all but 1 - `share` of the values (or by `rim` inside), at most `grow` away.
+TSpan spanOf(std::vector<double> values, double share, double grow, double rim) {
+    std::sort(values.begin(), values.end());
+    const auto out = static_cast<std::size_t>((1 - share) * static_cast<double>(values.size()));
+    return {values.front() - grow, values[out] + rim, values[values.size() - 1 - out] - rim,
+            values.back() + grow};
 }
 
-/// False if lines between both sides are much like them: then they are texture, not a border.
-bool standsOut(const cv::Mat& change,
-               cv::Range rows,
-               const std::array<int, 2>& sides,
-               const TBorderOptions& options) {
-    std::vector<double> inside;
-    const int step = std::max(1, (sides[1] - sides[0]) / 40);
-    for (int x = sides[0] + 4; x <= sides[1] - 4; x += step)
-        inside.push_back(lineContrast(change, x, rows, options.quantile));
-    if (inside.empty()) return false;
-    const auto middle = inside.begin() + static_cast<long>(inside.size() / 2);
-    std::nth_element(inside.begin(), middle, inside.end());
-    const double side = std::min(lineContrast(change, sides[0], rows, options.quantile),
-                                 lineContrast(change, sides[1], rows, options.quantile));
-    return side >= options.prominence * *middle;
+cv::Range rangeIn(double from, double to, int size) {
+    return {std::clamp(static_cast<int>(std::floor(from)), 0, size - 1),
+            std::clamp(static_cast<int>(std::ceil(to)), 0, size - 1) + 1};
 }
 
-int clampTo(double value, int size) {
-    return std::clamp(static_cast<int>(std::lround(value)), 0, size - 1);
+/// Share of a side that shows an edge less that of its continuation beyond both corners.
+double closedSupport(const CLineSupport& lines,
+                     int line,
+                     const cv::Range& side,
+                     double pixelsPerMetre) {
+    const int skip = std::max(2, static_cast<int>(kOutsideFrom * pixelsPerMetre));
+    const int length = std::max(4, static_cast<int>(kBeyond * pixelsPerMetre));
+    const double before = lines.share(line, {side.start - skip - length, side.start - skip});
+    const double after = lines.share(line, {side.end + skip, side.end + skip + length});
+    return lines.share(line, side) - (before + after) / 2;
 }
 
-/// Both sides across x, given the rows that the rectangle covers.
-std::optional<std::array<int, 2>> findPair(const cv::Mat& change,
-                                           cv::Range rows,
-                                           std::array<double, 2> start,
-                                           const std::array<double, 2>& reach,
-                                           const TBorderOptions& options) {
-    const double middle = (start[0] + start[1]) / 2;
-    const auto left = findSide(change, rows,
-                               {clampTo(std::min(start[0] + reach[1], middle), change.cols),
-                                clampTo(start[0] - reach[0], change.cols)},
-                               options);
-    const auto right = findSide(change, rows,
-                                {clampTo(std::max(start[1] - reach[1], middle), change.cols),
-                                 clampTo(start[1] + reach[0], change.cols)},
-                                options);
-    if (!left || !right || !(*right - *left >= 4)) return std::nullopt;
-    const std::array<int, 2> sides{*left, *right};
-    if (!standsOut(change, rows, sides, options)) return std::nullopt;
-    return sides;
+struct TCandidate {
+    cv::Rect rectangle;
+    double support;
+};
+
+/// Mean and standard deviation of the wall in a strip; nothing if less than half of it is known.
+std::optional<std::pair<double, double>> brightness(const cv::Mat& wall,
+                                                    const cv::Mat& valid,
+                                                    const cv::Rect& strip) {
+    const cv::Rect known = strip & cv::Rect({0, 0}, wall.size());
+    if (known.area() * 2 < strip.area() || known.area() == 0) return std::nullopt;
+    if (cv::countNonZero(valid(known)) * 2 < strip.area()) return std::nullopt;
+    cv::Scalar mean, deviation;
+    cv::meanStdDev(wall(known), mean, deviation, valid(known));
+    return std::make_pair(mean[0], deviation[0]);
+}
+
+/// True if the same surface lies outside all four sides.
+bool onOneWall(const cv::Mat& wall,
+               const cv::Mat& valid,
+               const cv::Rect& r,
+               const cv::Point2d& pixelsPerMetre,
+               double tolerance) {
+    const auto px = [](double metres, double resolution) {
+        return std::max(2, static_cast<int>(std::lround(metres * resolution)));
+    };
+    const int x0 = px(kOutsideFrom, pixelsPerMetre.x), y0 = px(kOutsideFrom, pixelsPerMetre.y);
+    const int dx = px(kOutsideTo - kOutsideFrom, pixelsPerMetre.x);
+    const int dy = px(kOutsideTo - kOutsideFrom, pixelsPerMetre.y);
+    const cv::Rect strips[] = {{r.x - x0 - dx, r.y, dx, r.height},
+                               {r.br().x + x0, r.y, dx, r.height},
+                               {r.x, r.y - y0 - dy, r.width, dy},
+                               {r.x, r.br().y + y0, r.width, dy}};
+    double low = 1e9, high = -1e9, calm = 1e9, busy = 0;
+    for (const auto& strip : strips) {
+        const auto seen = brightness(wall, valid, strip);
+        if (!seen) return false;
+        low = std::min(low, seen->first);
+        high = std::max(high, seen->first);
+        calm = std::min(calm, seen->second);
+        busy = std::max(busy, seen->second);
+    }
+    return high - low <= tolerance + calm && busy - calm <= tolerance / 2 + calm;
+}
+
+/// True if `share` of the regions lies in the rectangle.
+bool holds(const cv::Rect2d& r,
+           const std::vector<cv::Point2d>& regions,
+           const cv::Point2d& pixelsPerMetre,
+           double share) {
+    const cv::Point2d rim = kRim * pixelsPerMetre;
+    const cv::Rect2d wide(r.tl() - rim, r.br() + rim);
+    const auto n = std::count_if(regions.begin(), regions.end(),
+                                 [&](const cv::Point2d& p) { return wide.contains(p); });
+    return static_cast<double>(n) >= share * static_cast<double>(regions.size());
 }
 
 }  // namespace
 
 void TBorderOptions::visit(config::COptionVisitor& v) {
-    v.number("grow_m", grow, config::between(0, 3),
-             "how far a side may lie outside the regions' box");
-    v.number("shrink_m", shrink, config::between(0, 1), "how far a side may lie inside it");
-    v.number("quantile", quantile, config::between(0, 0.9),
-             "share of a side that may lack contrast");
+    v.number("grow_m", grow, config::between(0, 3), "how far a side may lie outside the regions");
     v.number("contrast", contrast, config::moreThan(0),
-             "grey levels per pixel that the rest of the side must change by");
-    v.number("dominance", dominance, config::between(0, 1),
-             "the nearest edge counts if it has this share of the best contrast");
-    v.number("prominence", prominence, config::atLeast(0),
-             "a side's contrast over that of lines between two sides");
+             "grey levels per pixel by which an edge changes");
+    v.number("support", support, config::between(0.1, 1),
+             "share of a side that is an edge, less that of its continuation, at least");
+    v.number("near_best", nearBest, config::between(0, 1),
+             "the largest rectangle wins whose support is this share of the best");
+    v.number("inside", inside, config::between(0.5, 1), "share of the regions inside, at least");
+    v.number("same_wall", sameWall, config::atLeast(0),
+             "grey levels by which the wall may differ outside of the four sides");
 }
 
-CBorderFinder::CBorderFinder(const TBorderOptions& options) : m_options(options) {}
+CBorderFinder::CBorderFinder(const TBorderOptions& options) : m_options(options) {
+    m_options.validate();
+}
 
 std::optional<cv::Rect2d> CBorderFinder::find(const cv::Mat& wall,
                                               const cv::Mat& valid,
-                                              const cv::Rect2d& start,
-                                              double pixelsPerMetre) const {
-    if (wall.rows < 8 || wall.cols < 8) return std::nullopt;
-    const cv::Mat acrossX = contrastAcross(wall, valid);
-    const cv::Mat acrossY = contrastAcross(wall.t(), valid.t());
-    const std::array<double, 2> reach{m_options.grow * pixelsPerMetre,
-                                      m_options.shrink * pixelsPerMetre};
-    std::array<double, 2> x{start.x, start.x + start.width};
-    std::array<double, 2> y{start.y, start.y + start.height};
-    // The rows and columns over which a side is judged depend on the other sides: the second and
-    // third rounds judge each over the extent that the round before has found.
-    for (int round = 0; round < 3; ++round) {
-        const cv::Range rows(clampTo(y[0] + 2, wall.rows), clampTo(y[1] - 2, wall.rows) + 1);
-        const cv::Range columns(clampTo(x[0] + 2, wall.cols), clampTo(x[1] - 2, wall.cols) + 1);
-        if (rows.size() < 4 || columns.size() < 4) return std::nullopt;
-        const std::array<double, 2> slack{std::max(3.0, 0.03 * pixelsPerMetre),
-                                          std::max(3.0, 0.03 * pixelsPerMetre)};
-        const auto& range = round == 0 ? reach : slack;
-        const auto newX = findPair(acrossX, rows, x, range, m_options);
-        const auto newY = findPair(acrossY, columns, y, range, m_options);
-        if (!newX || !newY) return std::nullopt;
-        x = {static_cast<double>((*newX)[0]), static_cast<double>((*newX)[1])};
-        y = {static_cast<double>((*newY)[0]), static_cast<double>((*newY)[1])};
+                                              const std::vector<cv::Point2d>& regions,
+                                              const cv::Point2d& pixelsPerMetre) const {
+    if (wall.rows < 8 || wall.cols < 8 || regions.empty()) return std::nullopt;
+    const CLineSupport upright(wall, valid, m_options.contrast);
+    const CLineSupport level(wall.t(), valid.t(), m_options.contrast);
+    std::vector<double> xs, ys;
+    for (const auto& p : regions) {
+        xs.push_back(p.x);
+        ys.push_back(p.y);
     }
-    return cv::Rect2d(x[0], y[0], x[1] - x[0], y[1] - y[0]);
+    const TSpan x =
+        spanOf(xs, m_options.inside, m_options.grow * pixelsPerMetre.x, kRim * pixelsPerMetre.x);
+    const TSpan y =
+        spanOf(ys, m_options.inside, m_options.grow * pixelsPerMetre.y, kRim * pixelsPerMetre.y);
+    // Whatever the rectangle, its sides cross these rows and columns.
+    const cv::Range rows =
+        rangeIn(std::min(y.lowLast, y.highFirst), std::max(y.lowLast, y.highFirst), wall.rows);
+    const cv::Range columns =
+        rangeIn(std::min(x.lowLast, x.highFirst), std::max(x.lowLast, x.highFirst), wall.cols);
+    const auto lefts = upright.lines(rangeIn(x.lowFirst, x.lowLast, wall.cols), rows);
+    const auto rights = upright.lines(rangeIn(x.highFirst, x.highLast, wall.cols), rows);
+    const auto tops = level.lines(rangeIn(y.lowFirst, y.lowLast, wall.rows), columns);
+    const auto bottoms = level.lines(rangeIn(y.highFirst, y.highLast, wall.rows), columns);
+
+    std::vector<TCandidate> candidates;
+    double best = 0;
+    const auto consider = [&](int left, int right, int top, int bottom) {
+        const cv::Range side(top + 1, bottom), edge(left + 1, right);
+        double support = 1;
+        const auto judge = [&](const CLineSupport& lines, int line, const cv::Range& over,
+                               double resolution) {
+            if (support >= m_options.support)
+                support = std::min(support, closedSupport(lines, line, over, resolution));
+        };
+        judge(upright, left, side, pixelsPerMetre.y);
+        judge(upright, right, side, pixelsPerMetre.y);
+        judge(level, top, edge, pixelsPerMetre.x);
+        judge(level, bottom, edge, pixelsPerMetre.x);
+        if (!(support >= m_options.support)) return;
+        const cv::Rect r(left, top, right - left, bottom - top);
+        if (!holds(r, regions, pixelsPerMetre, m_options.inside) ||
+            !onOneWall(wall, valid, r, pixelsPerMetre, m_options.sameWall))
+            return;
+        candidates.push_back({r, support});
+        best = std::max(best, support);
+    };
+    for (const int left : lefts)
+        for (const int right : rights)
+            for (const int top : tops)
+                for (const int bottom : bottoms)
+                    if (right - left >= 6 && bottom - top >= 6) consider(left, right, top, bottom);
+    const TCandidate* winner = nullptr;
+    for (const auto& c : candidates)
+        if (c.support >= m_options.nearBest * best &&
+            (!winner || c.rectangle.area() > winner->rectangle.area()))
+            winner = &c;
+    if (!winner) return std::nullopt;
+    return cv::Rect2d(winner->rectangle);
 }
 
 }  // namespace salma::landmarks

@@ -16,8 +16,9 @@ using appearance::TWallRectangle;
 using observations::TPatch;
 using observations::TSalientRegion;
 
-/// Fine enough to place a border within a centimetre; finer costs time and gains nothing.
-constexpr double kBorderPixelsPerMetre = 150;
+/// Limits of the resolution in which borders are sought [px/m]: finer than the upper one costs time
+/// and places no border better than to a centimetre.
+constexpr double kCoarsest = 20, kFinest = 150;
 
 /// Smallest rectangle of whole pixels around the quad, within the picture.
 cv::Rect boundingBox(const std::array<mrpt::math::TPoint2D, 4>& quad, const cv::Size& picture) {
@@ -25,6 +26,24 @@ cv::Rect boundingBox(const std::array<mrpt::math::TPoint2D, 4>& quad, const cv::
     for (const auto& p : quad)
         corners.emplace_back(static_cast<float>(p.x), static_cast<float>(p.y));
     return cv::boundingRect(corners) & cv::Rect({0, 0}, picture);
+}
+
+/// True if the laser sees a nearer wall just left or right of the rectangle: then that side is
+/// where the nearer wall ends, not the entity.
+bool partlyHidden(const TWallRectangle& r,
+                  const CWallView& wall,
+                  const std::vector<CWallView>& walls) {
+    constexpr double kBeside = 0.05, kNearer = 0.2;  // [m]
+    const double v = (r.v0 + r.v1) / 2;
+    for (const double u : {r.u0 - kBeside, r.u1 + kBeside}) {
+        const auto pixel = wall.toPixel(u, v);
+        if (!pixel) continue;
+        const std::size_t seen = wallOf(*pixel, walls, kBeside);
+        if (seen == walls.size()) continue;
+        const auto at = walls[seen].toWall(*pixel);
+        if ((walls[seen].point(at->x, at->y) - wall.point(u, v)).norm() > kNearer) return true;
+    }
+    return false;
 }
 
 }  // namespace
@@ -78,21 +97,23 @@ TFrontEndResult CFrontEnd::process(const TView& view) const {
     result.refused["too few regions"] += selection.tooFewRegions;
     result.refused["outnumbered"] += selection.outnumbered;
     for (const auto& entity : selection.entities)
-        if (auto patch = landmarkOf(entity, walls[entity.wall], view, result))
+        if (auto patch = landmarkOf(entity, walls, view, result))
             result.landmarks.push_back(std::move(*patch));
     return result;
 }
 
 std::optional<TPatch> CFrontEnd::landmarkOf(const TEntity& entity,
-                                            const CWallView& wall,
+                                            const std::vector<CWallView>& walls,
                                             const TView& view,
                                             TFrontEndResult& result) const {
     const auto refuse = [&](const std::string& reason) {
         ++result.refused[reason];
         return std::nullopt;
     };
+    const CWallView& wall = walls[entity.wall];
     const auto border = borderOf(entity, wall, view.grey);
     if (!border) return refuse("no border");
+    if (partlyHidden(*border, wall, walls)) return refuse("partly hidden by a nearer wall");
     const double width = border->u1 - border->u0, height = border->v1 - border->v0;
     if (!(std::min(width, height) >= m_options.minSize)) return refuse("too small");
     if (!(std::max(width, height) <= m_options.maxSize)) return refuse("too large");
@@ -109,22 +130,27 @@ std::optional<TPatch> CFrontEnd::landmarkOf(const TEntity& entity,
 std::optional<TWallRectangle> CFrontEnd::borderOf(const TEntity& entity,
                                                   const CWallView& wall,
                                                   const cv::Mat& grey) const {
-    const double reach = m_border.options().grow + 0.05;
+    const double reach = m_border.options().grow + 0.15;
     const TWallRectangle area{entity.box.u0 - reach, entity.box.v0 - reach, entity.box.u1 + reach,
                               entity.box.v1 + reach};
     // A box of many metres comes from regions whose rays graze the wall.
     if (!(area.u1 - area.u0 <= 2 * m_options.maxSize + 2 * reach)) return std::nullopt;
-    const TWallPicture picture = warpWall(grey, wall, area, kBorderPixelsPerMetre);
-    const auto toColumn = [&](double u) { return (u - area.u0) * kBorderPixelsPerMetre; };
-    const auto toRow = [&](double v) { return (area.v1 - v) * kBorderPixelsPerMetre; };
-    const cv::Rect2d start(cv::Point2d(toColumn(entity.box.u0), toRow(entity.box.v1)),
-                           cv::Point2d(toColumn(entity.box.u1), toRow(entity.box.v0)));
-    const auto found = m_border.find(picture.grey, picture.valid, start, kBorderPixelsPerMetre);
+    // As fine as the picture, else edges of distant posters would look soft.
+    const auto [fineU, fineV] = wall.pixelsPerMetreOfAxes((entity.box.u0 + entity.box.u1) / 2,
+                                                          (entity.box.v0 + entity.box.v1) / 2);
+    const cv::Point2d resolution(std::clamp(fineU, kCoarsest, kFinest),
+                                 std::clamp(fineV, kCoarsest, kFinest));
+    const TWallPicture picture = warpWall(grey, wall, area, resolution);
+    std::vector<cv::Point2d> centres;
+    for (const auto& region : entity.regions)
+        if (const auto at = wall.toWall({region.x, region.y}))
+            centres.emplace_back((at->x - area.u0) * resolution.x,
+                                 (area.v1 - at->y) * resolution.y);
+    const auto found = m_border.find(picture.grey, picture.valid, centres, resolution);
     if (!found) return std::nullopt;
-    return TWallRectangle{area.u0 + found->x / kBorderPixelsPerMetre,
-                          area.v1 - found->br().y / kBorderPixelsPerMetre,
-                          area.u0 + found->br().x / kBorderPixelsPerMetre,
-                          area.v1 - found->y / kBorderPixelsPerMetre};
+    return TWallRectangle{area.u0 + found->x / resolution.x, area.v1 - found->br().y / resolution.y,
+                          area.u0 + found->br().x / resolution.x,
+                          area.v1 - found->y / resolution.y};
 }
 
 std::vector<TSalientRegion> CFrontEnd::secondLook(const TPatch& patch, const cv::Mat& grey) const {

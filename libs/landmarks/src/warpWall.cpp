@@ -9,17 +9,17 @@ namespace salma::landmarks {
 TWallPicture warpWall(const cv::Mat& grey,
                       const appearance::CWallView& view,
                       const appearance::TWallRectangle& area,
-                      double pixelsPerMetre) {
-    const cv::Size size(static_cast<int>(std::ceil((area.u1 - area.u0) * pixelsPerMetre)) + 1,
-                        static_cast<int>(std::ceil((area.v1 - area.v0) * pixelsPerMetre)) + 1);
+                      const cv::Point2d& pixelsPerMetre) {
+    const cv::Size size(static_cast<int>(std::ceil((area.u1 - area.u0) * pixelsPerMetre.x)) + 1,
+                        static_cast<int>(std::ceil((area.v1 - area.v0) * pixelsPerMetre.y)) + 1);
     // The lens bends slowly: exact at every fourth wall point, linear in between.
     constexpr int kStep = 4;
     const cv::Size coarse(size.width / kStep + 2, size.height / kStep + 2);
     cv::Mat map(coarse, CV_32FC2);
     for (int y = 0; y < coarse.height; ++y)
         for (int x = 0; x < coarse.width; ++x) {
-            const auto pixel = view.toPixel(area.u0 + x * kStep / pixelsPerMetre,
-                                            area.v1 - y * kStep / pixelsPerMetre);
+            const auto pixel = view.toPixel(area.u0 + x * kStep / pixelsPerMetre.x,
+                                            area.v1 - y * kStep / pixelsPerMetre.y);
             map.at<cv::Vec2f>(y, x) =
                 pixel ? cv::Vec2f(static_cast<float>(pixel->x), static_cast<float>(pixel->y))
                       : cv::Vec2f(-1e6F, -1e6F);

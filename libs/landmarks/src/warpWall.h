@@ -15,10 +15,10 @@ struct TWallPicture {
 };
 
 /** Samples a wall for looking at it, also beyond the picture's edge; CRectifier cuts patches.
- * Pixel (x, y) is the wall point (u0 + x / pixelsPerMetre, v1 - y / pixelsPerMetre). */
+ * Pixel (x, y) is the wall point (u0 + x / ppm.x, v1 - y / ppm.y). */
 TWallPicture warpWall(const cv::Mat& grey,
                       const appearance::CWallView& view,
                       const appearance::TWallRectangle& area,
-                      double pixelsPerMetre);
+                      const cv::Point2d& pixelsPerMetre);
 
 }  // namespace salma::landmarks

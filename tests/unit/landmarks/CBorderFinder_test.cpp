@@ -2,12 +2,15 @@
 #include <gtest/gtest.h>
 #include <salma/landmarks/CBorderFinder.h>
 
+#include <vector>
+
 #include "TestScene.h"
 
 namespace salma::landmarks {
 namespace {
 
-constexpr double kResolution = 150;  // px/m
+const cv::Point2d kResolution{150, 150};  // px/m
+using Regions = std::vector<cv::Point2d>;
 
 struct TWall {
     cv::Mat grey{300, 400, CV_8U, cv::Scalar(200)};
@@ -24,10 +27,11 @@ struct TWall {
     cv::Mat noise = cv::Mat(300, 400, CV_16S);
 };
 
-TEST(CBorderFinder, FindsAPosterFromASmallBoxInsideIt) {
+TEST(CBorderFinder, FindsAPosterFromAFewRegionsInsideIt) {
     TWall wall;
     wall.hang({120, 80, 130, 100});
-    const auto found = CBorderFinder().find(wall.grey, wall.valid, {160, 110, 40, 30}, kResolution);
+    const auto found =
+        CBorderFinder().find(wall.grey, wall.valid, {{160, 110}, {200, 140}}, kResolution);
     ASSERT_TRUE(found);
     EXPECT_NEAR(found->x, 120, 2);
     EXPECT_NEAR(found->y, 80, 2);
@@ -39,25 +43,61 @@ TEST(CBorderFinder, GivesTheSameBorderWhicheverPartOfThePosterWasSalient) {
     TWall wall;
     wall.hang({120, 80, 130, 100});
     const CBorderFinder finder;
-    const auto a = finder.find(wall.grey, wall.valid, {125, 90, 30, 30}, kResolution);
-    const auto b = finder.find(wall.grey, wall.valid, {200, 130, 52, 52}, kResolution);
+    const auto a = finder.find(wall.grey, wall.valid, {{130, 95}, {150, 115}}, kResolution);
+    const auto b = finder.find(wall.grey, wall.valid, {{210, 140}, {240, 170}}, kResolution);
     ASSERT_TRUE(a && b);
-    EXPECT_NEAR(a->x, b->x, 2);
-    EXPECT_NEAR(a->br().y, b->br().y, 2);
+    EXPECT_NEAR(a->x, b->x, 1);
+    EXPECT_NEAR(a->y, b->y, 1);
+    EXPECT_NEAR(a->br().x, b->br().x, 1);
+    EXPECT_NEAR(a->br().y, b->br().y, 1);
+}
+
+TEST(CBorderFinder, TakesTheFrameAndNotThePaintingInIt) {
+    TWall wall;
+    wall.grey(cv::Rect(100, 60, 170, 140)).setTo(60);
+    wall.grey(cv::Rect(106, 66, 158, 128)).setTo(230);  // a bright mat
+    wall.hang({130, 85, 110, 90});
+    const auto found =
+        CBorderFinder().find(wall.grey, wall.valid, {{160, 110}, {200, 140}}, kResolution);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(found->x, 100, 2);
+    EXPECT_NEAR(found->br().y, 200, 2);
+}
+
+TEST(CBorderFinder, IsNotDrawnToADoorThatIsTallerThanThePoster) {
+    TWall wall;
+    wall.grey(cv::Rect(290, 20, 100, 280)).setTo(90);
+    wall.hang({120, 80, 130, 100});
+    const auto found =
+        CBorderFinder().find(wall.grey, wall.valid, {{160, 110}, {200, 140}}, kResolution);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(found->br().x, 250, 2);
+}
+
+TEST(CBorderFinder, TakesNoBricksForAPoster) {
+    TWall wall;
+    for (int y = 0; y < 300; y += 12)
+        for (int x = y / 12 % 2 * 18 - 36; x < 400; x += 36)
+            cv::rectangle(wall.grey, cv::Rect(x, y, 34, 10), cv::Scalar(120), cv::FILLED);
+    EXPECT_FALSE(
+        CBorderFinder().find(wall.grey, wall.valid, {{160, 110}, {200, 140}}, kResolution));
 }
 
 TEST(CBorderFinder, FindsNothingOnABareWallAndInATinyPicture) {
     TWall wall;
-    EXPECT_FALSE(CBorderFinder().find(wall.grey, wall.valid, {160, 110, 40, 30}, kResolution));
+    const Regions regions{{160, 110}, {200, 140}};
+    EXPECT_FALSE(CBorderFinder().find(wall.grey, wall.valid, regions, kResolution));
     const cv::Mat tiny(4, 4, CV_8U, cv::Scalar(0));
-    EXPECT_FALSE(CBorderFinder().find(tiny, tiny, {1, 1, 2, 2}, kResolution));
+    EXPECT_FALSE(CBorderFinder().find(tiny, tiny, {{1, 1}}, kResolution));
+    EXPECT_FALSE(CBorderFinder().find(wall.grey, wall.valid, {}, kResolution));
 }
 
 TEST(CBorderFinder, FindsNothingWhereThePictureEndsInsideThePoster) {
     TWall wall;
     wall.hang({120, 80, 130, 100});
     wall.valid.colRange(200, 400).setTo(0);
-    EXPECT_FALSE(CBorderFinder().find(wall.grey, wall.valid, {140, 110, 40, 30}, kResolution));
+    EXPECT_FALSE(
+        CBorderFinder().find(wall.grey, wall.valid, {{140, 110}, {180, 140}}, kResolution));
 }
 
 }  // namespace

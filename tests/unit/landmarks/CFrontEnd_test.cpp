@@ -57,6 +57,23 @@ TEST(CFrontEnd, RefusesAPaintingThatThePictureCuts) {
     EXPECT_TRUE(result.landmarks.empty());
 }
 
+TEST(CFrontEnd, RefusesAPaintingThatANearerWallHides) {
+    TView v = view(0, 0, 5);
+    // A wall 1 m away that ends on the ray to the middle of the painting, and all right of it.
+    auto near = test::wall(1, 0);
+    near.to = {1, -0.05 / 1.8};
+    const appearance::CWallView nearView(v.camera, v.T_r_c, near);
+    for (int y = 0; y < 480; ++y)
+        for (int x = 0; x < 640; ++x)
+            if (nearView.toWall({double(x), double(y)})->x > -near.to.y)
+                v.grey.at<uchar>(y, x) = 190;
+    EXPECT_EQ(CFrontEnd().process(v).landmarks.size(), 1u) << "half the painting looks like one";
+    v.walls.push_back(near);
+    const auto result = CFrontEnd().process(v);
+    EXPECT_TRUE(result.landmarks.empty());
+    EXPECT_EQ(result.refused.at("partly hidden by a nearer wall"), 1u);
+}
+
 TEST(CFrontEnd, RefusesPicturesOfAnotherTypeOrSize) {
     TView v = view(0, 0, 5);
     v.grey.convertTo(v.grey, CV_16U);

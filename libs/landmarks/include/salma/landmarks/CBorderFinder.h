@@ -5,27 +5,29 @@
 
 #include <opencv2/core.hpp>
 #include <optional>
+#include <vector>
 
 namespace salma::landmarks {
 
 /// Section [border] of config.ini.
 struct TBorderOptions : public config::TStrictOptions<TBorderOptions> {
-    double grow{0.8};       //!< How far a side may lie outside the start rectangle [m].
-    double shrink{0.12};    //!< How far inside [m].
-    double quantile{0.35};  //!< This share of a side may lack contrast [-].
-    double contrast{2.5};   //!< Grey levels per pixel that the rest of the side must change by.
-    double dominance{0.5};  //!< The nearest edge counts if it has this share of the best contrast.
-    double prominence{1.5};  //!< A side's contrast over that of the lines between two sides.
+    double grow{0.8};      //!< How far a side may lie outside the regions [m].
+    double contrast{2.5};  //!< Grey levels per pixel by which an edge changes.
+    double support{0.65};  //!< This share of a side shows an edge, at least [-].
+    double nearBest{0.9};  //!< The largest rectangle wins whose support is this share of the best.
+    double inside{0.9};    //!< This share of the regions lies inside [-].
+    double sameWall{20};   //!< Outside of all four sides the wall is equally bright within this.
 
     void visit(config::COptionVisitor& v);
 };
 
 /** Finds the border of an upright rectangle, such as a poster, in a picture of a wall.
  *
- * A side of a poster is a straight upright or level line across which the grey level changes
- * nearly everywhere, which texture inside a painting hardly ever is. So the salient regions only
- * have to hit the poster, and its extent does not depend on which of them were found: a landmark's
- * position is as repeatable as its border. Source: own. */
+ * All rectangles of straight upright and level lines around the regions are compared. Each side of
+ * a poster is an edge nearly everywhere and ends at its corners, which lines of brick or a door do
+ * not; and the same wall goes on outside all four sides, which it does not where a line inside the
+ * painting is taken for a side. Of several such rectangles (a frame, a mat, the painting) the
+ * outermost counts. So an extent does not depend on which regions were found. Source: own. */
 class CBorderFinder {
  public:
     /// \throw std::invalid_argument if the options are out of range.
@@ -33,13 +35,13 @@ class CBorderFinder {
 
     /** \param wall Grey picture of the wall as seen from straight ahead, CV_8UC1.
      * \param valid Same size, CV_8UC1, 0 where `wall` is not known.
-     * \param start Rectangle inside or around which the border is sought [px of `wall`].
-     * \param pixelsPerMetre Resolution of `wall`, > 0.
-     * \return The border [px of `wall`]; nothing if one of the four sides is not found. */
+     * \param regions Centres of the salient regions [px of `wall`].
+     * \param pixelsPerMetre Resolution of `wall` along its rows and columns, > 0.
+     * \return The border [px of `wall`]; nothing if no rectangle passes, or without regions. */
     std::optional<cv::Rect2d> find(const cv::Mat& wall,
                                    const cv::Mat& valid,
-                                   const cv::Rect2d& start,
-                                   double pixelsPerMetre) const;
+                                   const std::vector<cv::Point2d>& regions,
+                                   const cv::Point2d& pixelsPerMetre) const;
 
     const TBorderOptions& options() const { return m_options; }
 

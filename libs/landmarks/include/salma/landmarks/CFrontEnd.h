@@ -75,7 +75,7 @@ class CFrontEnd {
 
  private:
     std::optional<observations::TPatch> landmarkOf(const TEntity& entity,
-                                                   const appearance::CWallView& wall,
+                                                   const std::vector<appearance::CWallView>& walls,
                                                    const TView& view,
                                                    TFrontEndResult& result) const;
     std::optional<appearance::TWallRectangle> borderOf(const TEntity& entity,
