@@ -51,6 +51,16 @@ struct TCandidate {
     double support;
 };
 
+/// The largest of the rectangles with enough support.
+std::optional<cv::Rect2d> largestOf(const std::vector<TCandidate>& candidates, double enough) {
+    const TCandidate* winner = nullptr;
+    for (const auto& c : candidates)
+        if (c.support >= enough && (!winner || c.rectangle.area() > winner->rectangle.area()))
+            winner = &c;
+    if (!winner) return std::nullopt;
+    return cv::Rect2d(winner->rectangle);
+}
+
 /// Mean and standard deviation of the wall in a strip; nothing if less than half of it is known.
 std::optional<std::pair<double, double>> brightness(const cv::Mat& wall,
                                                     const cv::Mat& valid,
@@ -175,13 +185,7 @@ std::optional<cv::Rect2d> CBorderFinder::find(const cv::Mat& wall,
             for (const int top : tops)
                 for (const int bottom : bottoms)
                     if (right - left >= 6 && bottom - top >= 6) consider(left, right, top, bottom);
-    const TCandidate* winner = nullptr;
-    for (const auto& c : candidates)
-        if (c.support >= m_options.nearBest * best &&
-            (!winner || c.rectangle.area() > winner->rectangle.area()))
-            winner = &c;
-    if (!winner) return std::nullopt;
-    return cv::Rect2d(winner->rectangle);
+    return largestOf(candidates, m_options.nearBest * best);
 }
 
 }  // namespace salma::landmarks
