@@ -19,7 +19,7 @@ struct TAssociationOptions : public config::TStrictOptions<TAssociationOptions> 
     double margin{3};                //!< Least lead over the second-best candidate [nats].
     /// Log densities of landmarks that are not in the map [1/(m rad)]; log LR + log N(0) of a
     /// pairing must reach them.
-    double cornerLogDensity{4};
+    double cornerLogDensity{2};
     double salientLogDensity{-3};
 
     void visit(config::COptionVisitor& v);

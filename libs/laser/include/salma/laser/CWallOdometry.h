@@ -14,10 +14,10 @@ namespace salma::laser {
 /// Section [wall_odometry] of config.ini.
 struct TWallOdometryOptions : public config::TStrictOptions<TWallOdometryOptions> {
     bool use{true};                 //!< Off: odometry stays as it is.
-    double minLength{0.8};          //!< Shorter lines are not compared [m].
+    double minLength{0.6};          //!< Shorter lines are not compared [m].
     double gateQuantile{0.99};      //!< Probability that a wall seen again passes the gate.
     double slack{0.04};             //!< Added to the gate: odometry errs more than it states [m].
-    double slackTurn{M_PI / 90};    //!< The same for the turn [rad].
+    double slackTurn{M_PI / 30};    //!< The same for the turn [rad].
     double rhoSigma{0.01};          //!< Added to a line's own sigma: walls are not flat [m].
     double alphaSigma{M_PI / 900};  //!< Added to a line's own sigma: walls are not straight [rad].
     double maxTravel{3};            //!< The reference scan is renewed after this travel [m] ...
