@@ -117,9 +117,10 @@ void CMapping::keepPoints(const CObservation2DRangeScan& scan, slam::TRunRecord&
     const mrpt::poses::CPose2D T_w_l = T_w_r + mrpt::poses::CPose2D(scan.sensorPose);
     const double sign = scan.rightToLeft ? 1 : -1;
     const std::size_t n = scan.getScanSize();
+    const double beamStep = n > 1 ? scan.aperture / static_cast<double>(n - 1) : 0.0;
     for (std::size_t i = 0; i < n; i += kThin) {
         if (!scan.getScanRangeValidity(i)) continue;
-        const double angle = sign * scan.aperture * (static_cast<double>(i) / (n - 1) - 0.5);
+        const double angle = sign * (static_cast<double>(i) * beamStep - 0.5 * scan.aperture);
         const double range = scan.getScanRange(i);
         mrpt::math::TPoint2D point;
         T_w_l.composePoint({range * std::cos(angle), range * std::sin(angle)}, point);
