@@ -31,6 +31,7 @@ COutputFolder::COutputFolder(const fs::path& target)
                  "exists, is not empty and was not written by salma: name another folder");
     }
     m_staging = m_target.string() + ".partial-" + std::to_string(getpid());
+    fs::remove_all(m_staging, error);  // of a killed process that had our number
     fs::create_directories(m_staging, error);
     if (error) fail(m_target, "cannot write there: " + error.message());
     std::ofstream(m_staging / kMarker) << "Results of salma. A new run replaces this folder.\n";
@@ -44,9 +45,14 @@ COutputFolder::~COutputFolder() {
 void COutputFolder::publish() {
     std::error_code error;
     const fs::path old = m_staging.string() + ".old";
-    if (fs::exists(m_target)) fs::rename(m_target, old, error);
+    const bool replaces = fs::exists(m_target);
+    if (replaces) fs::rename(m_target, old, error);
     if (!error) fs::rename(m_staging, m_target, error);
-    if (error) fail(m_target, "cannot be replaced: " + error.message());
+    if (error) {
+        std::error_code ignored;
+        if (replaces && !fs::exists(m_target)) fs::rename(old, m_target, ignored);
+        fail(m_target, "cannot be replaced: " + error.message());
+    }
     fs::remove_all(old, error);
 }
 

@@ -21,34 +21,47 @@ bool matches(const std::string& name, const std::string& pattern) {
 }
 
 /// Refuses what MRPT's reader would skip or let overwrite an earlier line.
-void checkLines(const std::string& file, std::istream& in) {
-    std::string section;
-    std::set<std::string> seen;
-    std::string line;
-    for (int number = 1; std::getline(in, line); ++number) {
-        const std::string place = file + ":" + std::to_string(number) + ": ";
-        line = mrpt::system::trim(line);
-        if (isComment(line)) continue;
-        if (line.find('\0') != std::string::npos)
-            throw std::invalid_argument(place + "is not text");
-        if (line[0] == '[') {
-            if (line.find(']') == std::string::npos)
-                throw std::invalid_argument(place + "section '" + line + "' lacks its ']'");
-            section = line.substr(1, line.find(']') - 1);
-            if (!seen.insert("[" + section).second)
-                throw std::invalid_argument(place + "section [" + section + "] stands twice");
-            continue;
-        }
-        const auto equals = line.find('=');
-        if (equals == std::string::npos || equals == 0)
-            throw std::invalid_argument(place + "'" + line + "' is not 'key = value'");
-        const std::string key = mrpt::system::trim(line.substr(0, equals));
-        if (section.empty())
-            throw std::invalid_argument(place + "key '" + key + "' stands before any section");
-        if (!seen.insert(section + "]" + key).second)
-            throw std::invalid_argument(place + "[" + section + "] " + key + " stands twice");
+class CLineCheck {
+ public:
+    explicit CLineCheck(const std::string& file) : m_file(file) {}
+
+    void next(const std::string& line) {
+        ++m_number;
+        if (isComment(line)) return;
+        if (line.find('\0') != std::string::npos) fail("is not text");
+        if (line[0] == '[')
+            section(line);
+        else
+            key(line);
     }
-}
+
+ private:
+    void section(const std::string& line) {
+        const auto end = line.find(']');
+        if (end == std::string::npos) fail("section '" + line + "' lacks its ']'");
+        m_section = line.substr(1, end - 1);
+        if (!m_seen.insert("[" + m_section).second)
+            fail("section [" + m_section + "] stands twice");
+    }
+
+    void key(const std::string& line) {
+        const auto equals = line.find('=');
+        if (equals == std::string::npos || equals == 0) fail("'" + line + "' is not 'key = value'");
+        const std::string name = mrpt::system::trim(line.substr(0, equals));
+        if (m_section.empty()) fail("key '" + name + "' stands before any section");
+        if (!m_seen.insert(m_section + "]" + name).second)
+            fail("[" + m_section + "] " + name + " stands twice");
+    }
+
+    [[noreturn]] void fail(const std::string& problem) const {
+        throw std::invalid_argument(m_file + ":" + std::to_string(m_number) + ": " + problem);
+    }
+
+    std::string m_file;
+    std::string m_section;
+    std::set<std::string> m_seen;  //!< "[section" and "section]key".
+    int m_number{0};
+};
 
 }  // namespace
 
@@ -57,7 +70,8 @@ std::unique_ptr<mrpt::config::CConfigFile> openStrict(const std::string& file) {
     if (!in) throw std::invalid_argument(file + ": no such file, or not readable");
     if (!std::filesystem::is_regular_file(file))  // it is read twice
         throw std::invalid_argument(file + ": is not a regular file");
-    checkLines(file, in);
+    CLineCheck check(file);
+    for (std::string line; std::getline(in, line);) check.next(mrpt::system::trim(line));
     return std::make_unique<mrpt::config::CConfigFile>(file);
 }
 

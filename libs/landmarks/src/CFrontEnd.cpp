@@ -23,6 +23,7 @@ constexpr double kCoarsest = 20, kFinest = 150;
 /// Smallest rectangle of whole pixels around the quad, within the picture.
 cv::Rect boundingBox(const std::array<mrpt::math::TPoint2D, 4>& quad, const cv::Size& picture) {
     std::vector<cv::Point2f> corners;
+    corners.reserve(quad.size());
     for (const auto& p : quad)
         corners.emplace_back(static_cast<float>(p.x), static_cast<float>(p.y));
     return cv::boundingRect(corners) & cv::Rect({0, 0}, picture);
