@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <mrpt/config/CConfigFileMemory.h>
+#include <salma/config/CStrictSection.h>
 #include <salma/viz/CPlots.h>
 #include <salma/viz/CReport.h>
 #include <salma/viz/CRunWriter.h>
@@ -79,6 +81,24 @@ Cells cellsOf(const slam::TInnovationRow& i) {
     return {stamp(i.time), i.component, number(i.value), number(i.sigma)};
 }
 
+/// {section: {key: value}} of an ini text, values as they stand there.
+nlohmann::ordered_json optionsOf(const std::string& ini) {
+    const mrpt::config::CConfigFileMemory file(ini);
+    nlohmann::ordered_json json = nlohmann::ordered_json::object();
+    std::vector<std::string> sections, keys;
+    file.getAllSections(sections);
+    for (const auto& section : sections) {
+        file.getAllKeys(section, keys);
+        config::CStrictSection reader(file, section);
+        for (const auto& key : keys) {
+            std::string value;
+            reader.text(key, value);
+            json[section][key] = value;
+        }
+    }
+    return json;
+}
+
 void writeSummary(const TRunRecord& record, const std::string& file) {
     const TDecisionCounts counts = countDecisions(record);
     nlohmann::ordered_json json;
@@ -93,7 +113,7 @@ void writeSummary(const TRunRecord& record, const std::string& file) {
     json["pictures_without_landmark"] = record.picturesWithoutLandmark;
     json["seconds"] = record.seconds;
     json["seed"] = record.seed;
-    json["options"] = record.options;
+    json["options"] = optionsOf(record.options);
     json["notices"] = record.notices;
     CTextFile text(file);  // file names in notices need not be UTF-8
     text.out() << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
