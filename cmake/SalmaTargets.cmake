@@ -1,4 +1,4 @@
-# The kinds of target of this project: salma_add_library, salma_add_app, salma_add_test.
+# The kinds of target of this project: salma_add_library, salma_add_app, salma_add_bench, salma_add_test.
 set(SALMA_SANITIZE "" CACHE STRING "Sanitizers for every target, e.g. address,undefined")
 
 add_library(salma_flags INTERFACE)
@@ -55,6 +55,16 @@ function(salma_add_app name)
   target_link_libraries(${name} PRIVATE ${A_LINK} salma_app_common salma_flags)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
   install(TARGETS ${name})
+endfunction()
+
+# salma_add_bench(<name> SOURCES <cpp>... LINK <target>...)
+# A program that measures; built as bench/<name> of the build folder, not installed.
+function(salma_add_bench name)
+  cmake_parse_arguments(A "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(bench_${name} ${A_SOURCES})
+  target_link_libraries(bench_${name} PRIVATE ${A_LINK} salma_flags)
+  set_target_properties(bench_${name} PROPERTIES
+    OUTPUT_NAME ${name} RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bench)
 endfunction()
 
 # salma_add_test(<name> LABEL <label> SOURCES <cpp>... LINK <target>...)
