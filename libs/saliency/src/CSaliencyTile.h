@@ -10,14 +10,21 @@ namespace salma::saliency {
 
 constexpr int kTileRows = 64;  // so that the planes of a tile fit into a second-level cache
 constexpr int kBandRows = 8;   // so that the window of one bin fits into a first-level cache
-constexpr int kGroup = 16;     // centres for which entropies are computed or left out together
+
+/// A peak of a row of centres; its Y is H W.
+struct TPeak {
+    std::uint16_t column{0};  //!< Centre [px].
+    std::uint16_t scale{0};   //!< Radius [px].
+    double H{0};
+    double W{0};
+};
 
 /** Finds the peaks of up to kLanes x kTileRows centres; its buffers serve one tile after another.
  * One per thread. */
 template <class COUNT>
 class CSaliencyTile {
  public:
-    using TRegions = std::vector<observations::TSalientRegion>;
+    using TPeaks = std::vector<TPeak>;
 
     CSaliencyTile(const TScaleTables& tables, const TKernels<COUNT>& kernels);
 
@@ -25,7 +32,7 @@ class CSaliencyTile {
      * \param centres Which pixels are centres; at least sMax from each border.
      * \param rows One list for each row of centres, to which its peaks are added by column, scale.
      */
-    void detect(const cv::Mat& bins, const cv::Rect& centres, double yMin, TRegions* rows);
+    void detect(const cv::Mat& bins, const cv::Rect& centres, double yMin, TPeaks* rows);
 
  private:
     void fillPlanes(const cv::Mat& bins, const cv::Rect& window);
@@ -33,31 +40,28 @@ class CSaliencyTile {
     TPlanes<COUNT> planesOf(std::size_t bin) const;
     /// Bins with a pixel in the discs of the centres of `count` rows from `row`.
     void findPresent(int row, int count);
-    void detectBand(const cv::Rect& centres, int row, TRegions* rows);
-    void sumRow(int bandRow);
-    /// Marks the groups of centres that may hold a peak with Y >= m_yMin at a scale.
-    void findNeeded();
-    void computeEntropies();
-    void computeEntropies(std::size_t k, std::size_t firstLane);
-    void emitPeaks(const cv::Point& firstCentre, int count, TRegions& found) const;
+    void detectBand(const cv::Rect& centres, int row, TPeaks* rows);
+    void countBand(int row, int count);
+    /// Peaks of the centres x..x+kPart-1 of a row of the band, of which `count` exist.
+    void searchPart(int bandRow, int x);
+    void emitPeaks(int firstColumn, int count, TPeaks& found) const;
+    bool isPeak(int k, int x) const;
+    double entropy(int k, int x) const;
 
     const TScaleTables& m_tables;
     TKernels<COUNT> m_kernels;
-    std::size_t m_scales;
-    int m_stride;
+    int m_scales;
     double m_yMin{0};
-    double m_entropyBound{0};  //!< log of the number of bins in m_present.
+    std::size_t m_plane;       //!< Counts of one of a bin's three arrays.
+    std::size_t m_bandCounts;  //!< Counts of a bin in a row of the band.
 
-    std::vector<std::vector<COUNT>> m_planes;        //!< Of each bin: three arrays.
-    std::vector<std::vector<std::uint8_t>> m_inRow;  //!< [bin][row] whether it occurs there.
-    std::vector<std::size_t> m_present;              //!< Bins, ascending.
-    std::vector<COUNT> m_scratch;
-    std::vector<COUNT> m_discs;           //!< [band row][present][scale][lane]
-    std::vector<std::uint16_t> m_counts;  //!< [scale][present][lane]
-    std::vector<std::int32_t> m_change;   //!< [scale][lane]
-    std::vector<double> m_w;              //!< [scale][lane]
-    std::vector<double> m_h;              //!< [scale][lane], where needed.
-    std::vector<std::uint8_t> m_needed;   //!< [scale][group]
+    std::vector<hwy::AlignedFreeUniquePtr<COUNT[]>> m_planes;  //!< Of each bin: three arrays.
+    std::vector<std::vector<std::uint8_t>> m_inRow;            //!< [bin][row] whether it occurs.
+    std::vector<std::size_t> m_present;                        //!< Bins, ascending.
+    hwy::AlignedFreeUniquePtr<COUNT[]> m_scratch;
+    hwy::AlignedFreeUniquePtr<COUNT[]> m_discs;  //!< [band row][present][scale][lane]
+    std::size_t m_discsSize{0};
+    TPart m_part;
 };
 
 }  // namespace salma::saliency

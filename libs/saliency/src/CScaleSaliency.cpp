@@ -21,7 +21,7 @@ namespace {
 /// A tile's centres and the lists for their peaks.
 struct TJob {
     cv::Rect centres;
-    std::vector<TRegions> rows;
+    std::vector<std::vector<TPeak>> rows;
 };
 
 /// The tiles of a picture, row by row of tiles.
@@ -30,7 +30,7 @@ std::vector<TJob> cut(const cv::Rect& centres) {
     for (int y = centres.y; y < centres.br().y; y += kTileRows)
         for (int x = centres.x; x < centres.br().x; x += kLanes) {
             const cv::Rect tile = cv::Rect(x, y, kLanes, kTileRows) & centres;
-            jobs.push_back({tile, std::vector<TRegions>(static_cast<std::size_t>(tile.height))});
+            jobs.push_back({tile, std::vector<std::vector<TPeak>>(static_cast<std::size_t>(tile.height))});
         }
     return jobs;
 }
@@ -46,7 +46,8 @@ TRegions joinRows(const std::vector<TJob>& jobs) {
         while (last < jobs.size() && jobs[last].centres.y == tile.y) ++last;
         for (std::size_t r = 0; r < static_cast<std::size_t>(tile.height); ++r)
             for (std::size_t i = first; i < last; ++i)
-                all.insert(all.end(), jobs[i].rows[r].begin(), jobs[i].rows[r].end());
+                for (const TPeak& p : jobs[i].rows[r])
+                    all.push_back({double(p.column), double(tile.y + int(r)), double(p.scale), p.H, p.W, p.H * p.W});
     }
     return all;
 }

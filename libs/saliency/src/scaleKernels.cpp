@@ -2,202 +2,508 @@
 #include "scaleKernels.h"
 
 #include <algorithm>
-#include <cstring>
+#include <cmath>
+#include <iterator>
+#include <stdexcept>
+#include <string>
 
-#if defined(__x86_64__) && defined(__GNUC__)
-#define SALMA_X86 1
-#endif
+// Every instruction set that the compiler knows, the portable one included; others would add
+// nothing (SSSE3) or have vectors whose size is known too late (SVE).
+#define HWY_COMPILE_ALL_ATTAINABLE
+#define HWY_BROKEN_EMU128 0  // the portable one; what Highway mistrusts in g++ 12.2 is not used here
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "scaleKernels.cpp"
+#include <hwy/foreach_target.h>  // includes this file once for each instruction set
+#include <hwy/highway.h>
 
+HWY_BEFORE_NAMESPACE();
 namespace salma::saliency {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D16 = hn::CappedTag<std::uint16_t, kPart>;
+using D32 = hn::RepartitionToWide<D16>;
+using DInt = hn::RebindToSigned<D32>;
+using DFloat = hn::RebindToFloat<D32>;
+using DDouble = hn::CappedTag<double, kPart>;
+using VWords = hn::Vec<D32>;
+using VInts = hn::Vec<DInt>;
+using VFloats = hn::Vec<DFloat>;
+
+constexpr int kShorts = static_cast<int>(hn::MaxLanes(D16()));
+constexpr int kFloats = static_cast<int>(hn::MaxLanes(DFloat()));
+constexpr int kDoubles = static_cast<int>(hn::MaxLanes(DDouble()));
+
+// ---------------------------------------------------------------- counting
+
+template <class COUNT>
+HWY_INLINE void add(COUNT* out, const COUNT* a, const COUNT* b, const TDiscPlan::TSum& sum) {
+    const hn::CappedTag<COUNT, kLanes> d;
+    constexpr int n = static_cast<int>(hn::MaxLanes(d));
+    for (int c = sum.first / n * n; c < sum.last; c += n)
+        hn::Store(hn::Add(hn::Load(d, a + c), hn::Load(d, b + c)), d, out + c);
+}
+
+template <class COUNT>
+HWY_INLINE void subtract(COUNT* out, const COUNT* a, const COUNT* b, const TDiscPlan::TSum& sum) {
+    const hn::CappedTag<COUNT, kLanes> d;
+    constexpr int n = static_cast<int>(hn::MaxLanes(d));
+    for (int c = sum.first / n * n; c < sum.last; c += n)
+        hn::Store(hn::Sub(hn::Load(d, a + c), hn::Load(d, b + c)), d, out + c);
+}
+
+template <class COUNT>
+HWY_INLINE void sumRows(const TDiscPlan& plan,
+                        const TPlanes<COUNT>& planes,
+                        int row,
+                        COUNT* scratch) {
+    const auto at = [&](const COUNT* plane, int r) { return plane + r * plan.stride; };
+    for (const auto& sum : plan.rowPairs)
+        add(scratch + sum.slot, at(planes.alongRow, row + sum.size),
+            at(planes.alongRow, row - sum.size), sum);
+    for (const auto& sum : plan.columns)
+        subtract(scratch + sum.slot, at(planes.alongColumn, row + sum.size + 1),
+                 at(planes.alongColumn, row - sum.size), sum);
+    for (const auto& sum : plan.squares)
+        subtract(scratch + sum.slot, at(planes.square, row + sum.size + 1),
+                 at(planes.square, row - sum.size), sum);
+}
+
+template <class COUNT>
+void discs(const TScaleTables& tables,
+           const TPlanes<COUNT>& planes,
+           int row,
+           COUNT* HWY_RESTRICT scratch,
+           COUNT* HWY_RESTRICT out) {
+    const hn::CappedTag<COUNT, kLanes> d;
+    constexpr int n = static_cast<int>(hn::MaxLanes(d));
+    sumRows(tables.plan, planes, row, scratch);
+    for (const auto& disc : tables.plan.discs) {
+        for (int x = 0; x < kLanes; x += n) {
+            const COUNT* const sums = scratch + x;
+            auto inside = hn::LoadU(d, sums + disc.squareRight);
+            auto outside = hn::LoadU(d, sums + disc.squareLeft);
+            for (const auto& term : disc.rows) {
+                inside = hn::Add(inside, hn::LoadU(d, sums + term.rowRight));
+                outside = hn::Add(outside, hn::LoadU(d, sums + term.rowLeft));
+                inside = hn::Add(inside, hn::LoadU(d, sums + term.columnRight));
+                outside = hn::Sub(outside, hn::LoadU(d, sums + term.columnLeft));
+            }
+            hn::Store(hn::Sub(inside, outside), d, out + x);
+        }
+        out += kLanes;
+    }
+}
+
+// ---------------------------------------------------------------- searching
+
+/// Pixels of the ring at scale k, as words.
+template <class COUNT>
+HWY_INLINE hn::Vec<D16> ringOf(const COUNT* disc, int k) {
+    const hn::Rebind<COUNT, D16> d;
+    auto ring = hn::LoadU(d, disc);
+    if (k > 0) ring = hn::Sub(ring, hn::LoadU(d, disc - kLanes));
+    if constexpr (sizeof(COUNT) == 1)
+        return hn::PromoteTo(D16(), ring);
+    else
+        return ring;
+}
+
+/// max(0, r N - n R) of pairs (r in the lower half, n in the upper half of a word).
+template <class COUNT>
+HWY_INLINE VInts growth(VWords pairs, VInts area, VInts ring, [[maybe_unused]] VInts both) {
+    const DInt d;
+    VInts difference;
+#if HWY_TARGET == HWY_AVX3
+    if constexpr (sizeof(COUNT) == 1)  // counts below 2^15
+        return hn::Max(VInts{_mm512_madd_epi16(pairs.raw, both.raw)}, hn::Zero(d));
+#elif HWY_TARGET == HWY_AVX2
+    if constexpr (sizeof(COUNT) == 1)
+        return hn::Max(VInts{_mm256_madd_epi16(pairs.raw, both.raw)}, hn::Zero(d));
+#elif HWY_TARGET == HWY_SSE4
+    if constexpr (sizeof(COUNT) == 1)
+        return hn::Max(VInts{_mm_madd_epi16(pairs.raw, both.raw)}, hn::Zero(d));
+#endif
+    const auto r = hn::BitCast(d, hn::And(pairs, hn::Set(D32(), 0xffff)));
+    const auto n = hn::BitCast(d, hn::ShiftRight<16>(pairs));
+    difference = hn::Sub(hn::Mul(r, area), hn::Mul(n, ring));
+    return hn::Max(difference, hn::Zero(d));
+}
+
+/** n log2(n / N), to 3e-5 n. The exponent of n and its mantissa m less 1 are the bits of the float
+ * n; a polynomial adds what log2(m) has beyond m - 1. */
+class CLogs {
+ public:
+    explicit CLogs(int area) : m_constant(hn::Set(d, kC[0] - 127 - static_cast<float>(std::log2(area)))) {}
+
+    HWY_INLINE VFloats addTo(VFloats sum, VInts n) const {
+        const auto f = hn::ConvertTo(d, n);
+        const auto bits = hn::BitCast(DInt(), f);
+        const auto m = hn::BitCast(
+            d, hn::OrAnd(hn::Set(DInt(), 0x3f800000), bits, hn::Set(DInt(), 0x007fffff)));
+        auto p = hn::MulAdd(hn::Set(d, kC[5]), m, hn::Set(d, kC[4]));
+        p = hn::MulAdd(p, m, hn::Set(d, kC[3]));
+        p = hn::MulAdd(p, m, hn::Set(d, kC[2]));
+        p = hn::MulAdd(p, m, hn::Set(d, kC[1]));
+        p = hn::MulAdd(p, m, m_constant);
+        const auto log = hn::MulAdd(hn::ConvertTo(d, bits), hn::Set(d, 1.0F / (1 << 23)), p);
+        return hn::MulAdd(f, log, sum);
+    }
+
+ private:
+    // Minimax polynomial of log2(m) - (m - 1) on [1, 2]: 1.3e-5.
+    static constexpr float kC[6] = {-1.80036404F, 4.09171081F,   -3.55079293F,
+                                    1.63114877F,  -0.416563687F, 0.0448736103F};
+    static constexpr DFloat d{};
+    VFloats m_constant;
+};
+
+/// Counts, changes and entropies of all scales.
+template <class COUNT>
+void sumAll(const TScaleTables& tables, const COUNT* discs, TPart& part) {
+    const D16 d16;
+    const DInt di;
+    const DFloat df;
+    const int scales = tables.scales();
+    const int ofBin = scales * kLanes;
+    for (int k = 0; k < scales; ++k) {
+        const auto s = static_cast<std::size_t>(tables.sMin + k);
+        const int area = tables.area[s];
+        const int inRing = k > 0 ? area - tables.area[s - 1] : 0;
+        const auto areas = hn::Set(di, area);
+        const auto rings = hn::Set(di, inRing);
+        const auto both = hn::Set(di, (area & 0xffff) | -inRing * 65536);
+        const CLogs logs(area);
+        std::uint16_t* const counts = part.counts.get() + k * part.present * kPart;
+        for (int x = 0; x < kPart; x += kShorts) {
+            auto change0 = hn::Zero(di);
+            auto change1 = hn::Zero(di);
+            auto sum0 = hn::Zero(df);
+            auto sum1 = hn::Zero(df);
+            const COUNT* disc = discs + k * kLanes + x;
+            std::uint16_t* count = counts + x;
+            for (int b = 0; b < part.present; ++b, disc += ofBin, count += kPart) {
+                const auto ring = ringOf(disc, k);
+                auto n = ring;
+                if (k > 0) n = hn::Add(n, hn::Load(d16, count - part.present * kPart));
+                hn::Store(n, d16, count);
+                const auto pairs0 = hn::ZipLower(ring, n);
+                const auto pairs1 = hn::ZipUpper(D32(), ring, n);
+                change0 = hn::Add(change0, growth<COUNT>(pairs0, areas, rings, both));
+                change1 = hn::Add(change1, growth<COUNT>(pairs1, areas, rings, both));
+                sum0 = logs.addTo(sum0, hn::BitCast(di, hn::ShiftRight<16>(pairs0)));
+                sum1 = logs.addTo(sum1, hn::BitCast(di, hn::ShiftRight<16>(pairs1)));
+            }
+            const auto factor = hn::Set(df, -1.0F / static_cast<float>(area));
+            std::int32_t* const change = part.change.get() + k * kPart + x;
+            float* const entropy = part.entropy.get() + k * kPart + x;
+            hn::Store(change0, di, change);
+            hn::Store(change1, di, change + kFloats);
+            hn::Store(hn::Mul(sum0, factor), df, entropy);
+            hn::Store(hn::Mul(sum1, factor), df, entropy + kFloats);
+        }
+    }
+}
+
+/** W of places first..first+count-1 at scales 1..lastScale-1, from their changes up to
+ * lastScale. The order of operations is part of the result. */
+HWY_INLINE void computeW(const TScaleTables& tables, int first, int count, int lastScale, TPart& part) {
+    const DDouble d;
+    const hn::Rebind<std::int32_t, DDouble> di;
+    const auto third = hn::Set(d, 1.0 / 3.0);
+    for (int x = first; x < first + count; x += kDoubles) {
+        const auto dAt = [&](int k) {
+            const auto change = hn::Load(di, part.change.get() + k * kPart + x);
+            return hn::Mul(hn::PromoteTo(d, change),
+                           hn::Set(d, tables.dFactor[static_cast<std::size_t>(tables.sMin + k)]));
+        };
+        auto now = dAt(1);
+        auto smoothed = now;  // D(sMin) is D(sMin + 1)
+        for (int k = 1; k < lastScale; ++k) {
+            const auto next = dAt(k + 1);
+            smoothed = tables.smooth ? hn::Mul(hn::Add(hn::Add(smoothed, now), next), third) : now;
+            now = next;
+            const auto factor = tables.wFactor[static_cast<std::size_t>(tables.sMin + k)];
+            hn::Store(hn::Mul(smoothed, hn::Set(d, factor)), d, part.w.get() + k * kPart + x);
+        }
+    }
+}
+
+HWY_INLINE void clearMarks(const TScaleTables& tables, TPart& part) {
+    const int n = (tables.scales() + kInWord - 1) / kInWord * kPart;
+    std::fill_n(part.certain.get(), n, 0U);
+    std::fill_n(part.possible.get(), n, 0U);
+}
+
+/// Entropies further apart than this are so in truth as well [bit].
+HWY_INLINE float marginOf(const TPart& part) {
+    return 8e-5F + 1e-6F * static_cast<float>(part.present);
+}
+
+/// Marks scale k of the places from x on, if their entropies, and `allowed`, make them peaks.
+HWY_INLINE void mark(VFloats before,
+                     VFloats at,
+                     VFloats after,
+                     hn::Mask<DFloat> allowed,
+                     float margin,
+                     int k,
+                     int x,
+                     TPart& part) {
+    const D32 d;
+    const DFloat df;
+    const auto least = hn::Min(hn::Sub(at, before), hn::Sub(at, after));
+    const auto bit = hn::Set(d, 1U << (k % kInWord));
+    const auto store = [&](std::uint32_t* words, hn::Mask<DFloat> which) {
+        std::uint32_t* const word = words + k / kInWord * kPart + x;
+        const auto marks = hn::IfThenElseZero(hn::RebindMask(d, hn::And(which, allowed)), bit);
+        hn::Store(hn::Or(hn::Load(d, word), marks), d, word);
+    };
+    store(part.certain.get(), hn::Gt(least, hn::Set(df, margin)));
+    store(part.possible.get(), hn::Gt(least, hn::Set(df, -margin)));
+}
+
+template <class COUNT>
+void search(const TScaleTables& tables, const COUNT* discs, TPart& part) {
+    const DFloat d;
+    sumAll(tables, discs, part);
+    const int scales = tables.scales();
+    computeW(tables, 0, kPart, scales - 1, part);
+    clearMarks(tables, part);
+    const auto all = hn::FirstN(d, kFloats);
+    for (int x = 0; x < kPart; x += kFloats) {
+        const float* entropy = part.entropy.get() + x;
+        for (int k = 1; k + 1 < scales; ++k) {
+            entropy += kPart;
+            mark(hn::Load(d, entropy - kPart), hn::Load(d, entropy), hn::Load(d, entropy + kPart),
+                 all, marginOf(part), k, x, part);
+        }
+    }
+    // What ZipLower and ZipUpper do to the order of centres.
+    HWY_ALIGN std::uint16_t centres[kPart];
+    HWY_ALIGN std::uint32_t zipped[kPart];
+    for (int x = 0; x < kPart; ++x) centres[x] = static_cast<std::uint16_t>(x);
+    const D16 d16;
+    for (int x = 0; x < kPart; x += kShorts) {
+        const auto c = hn::Load(d16, centres + x);
+        hn::Store(hn::ZipLower(c, hn::Zero(d16)), D32(), zipped + x);
+        hn::Store(hn::ZipUpper(D32(), c, hn::Zero(d16)), D32(), zipped + x + kFloats);
+    }
+    for (int i = 0; i < kPart; ++i) part.place[zipped[i]] = static_cast<std::uint8_t>(i);
+}
+
+// ---------------------------------------------------------------- searching above a threshold
+
+/// Counts of all scales, and bounds of their changes: at least sum max(0, r/R - n'/N') * kUnit.
+constexpr int kUnit = 32767;
+
+template <class COUNT>
+void boundChanges(const TScaleTables& tables, const COUNT* discs, TPart& part) {
+    const D16 d;
+    const int scales = tables.scales();
+    const int ofBin = scales * kLanes;
+    for (int k = 0; k < scales; ++k) {
+        const auto s = static_cast<std::size_t>(tables.sMin + k);
+        const int before = k > 0 ? tables.area[s - 1] : 0;
+        const int inRing = tables.area[s] - before;
+        const int perPixel = kUnit / inRing;  // of the ring; of the disc before, rounded down:
+        int shift = 0;
+        while (before > 0 && before << (shift + 1) < 65536) ++shift;
+        const std::int64_t unit = static_cast<std::int64_t>(perPixel) * inRing * 65536;
+        const auto perShifted = hn::Set(
+            d, static_cast<std::uint16_t>(before > 0 ? unit / (static_cast<std::int64_t>(before) << shift) : 0));
+        const auto perRing = hn::Set(d, static_cast<std::uint16_t>(perPixel));
+        std::uint16_t* const counts = part.counts.get() + k * part.present * kPart;
+        for (int x = 0; x < kPart; x += kShorts) {
+            auto bound = hn::Zero(d);
+            const COUNT* disc = discs + k * kLanes + x;
+            std::uint16_t* count = counts + x;
+            for (int b = 0; b < part.present; ++b, disc += ofBin, count += kPart) {
+                const auto ring = ringOf(disc, k);
+                auto n = hn::Zero(d);
+                if (k > 0) n = hn::Load(d, count - part.present * kPart);
+                hn::Store(hn::Add(n, ring), d, count);
+                const auto expected = hn::MulHigh(hn::ShiftLeftSame(n, shift), perShifted);
+                bound = hn::Add(bound, hn::SaturatedSub(hn::Mul(ring, perRing), expected));
+            }
+            hn::Store(bound, d, part.bound.get() + k * kPart + x);
+        }
+    }
+}
+
+/// Bounds of W, in the order of centres.
+HWY_INLINE void boundW(const TScaleTables& tables, TPart& part) {
+    const DFloat d;
+    const DInt di;
+    const hn::Rebind<std::uint16_t, DFloat> d16;
+    const int scales = tables.scales();
+    for (int x = 0; x < kPart; x += kFloats) {
+        const auto dAt = [&](int k) {
+            const auto s = static_cast<std::size_t>(tables.sMin + k);
+            const int inRing = tables.area[s] - tables.area[s - 1];
+            // D is 2 R / N of the sum, whose unit is perPixel * R.
+            const double factor = 2.0 * inRing / tables.area[s] / (kUnit / inRing * inRing);
+            const auto bound = hn::Load(d16, part.bound.get() + k * kPart + x);
+            return hn::Mul(hn::ConvertTo(d, hn::PromoteTo(di, bound)),
+                           hn::Set(d, static_cast<float>(factor)));
+        };
+        auto now = dAt(1);
+        auto smoothed = now;
+        for (int k = 1; k + 1 < scales; ++k) {
+            const auto next = dAt(k + 1);
+            smoothed = tables.smooth ? hn::Mul(hn::Add(hn::Add(smoothed, now), next), hn::Set(d, 1.0F / 3.0F))
+                                     : now;
+            now = next;
+            const double factor = tables.wFactor[static_cast<std::size_t>(tables.sMin + k)] * (1 + 1e-5);
+            hn::Store(hn::Mul(smoothed, hn::Set(d, static_cast<float>(factor))), d,
+                      part.wBound.get() + k * kPart + x);
+        }
+    }
+}
+
+HWY_INLINE VFloats entropyOf(const TScaleTables& tables, const TPart& part, int k, int x) {
+    const DFloat d;
+    const DInt di;
+    const hn::Rebind<std::uint16_t, DFloat> d16;
+    const int area = tables.area[static_cast<std::size_t>(tables.sMin + k)];
+    const CLogs logs(area);
+    auto sum = hn::Zero(d);
+    const std::uint16_t* count = part.counts.get() + k * part.present * kPart + x;
+    for (int b = 0; b < part.present; ++b, count += kPart)
+        sum = logs.addTo(sum, hn::PromoteTo(di, hn::Load(d16, count)));
+    return hn::Mul(sum, hn::Set(d, -1.0F / static_cast<float>(area)));
+}
+
+/// Changes of the places from x on at scales 1..lastScale.
+HWY_INLINE void computeChanges(const TScaleTables& tables, int x, int lastScale, TPart& part) {
+    const DInt di;
+    const hn::Rebind<std::uint16_t, DFloat> d16;
+    for (int k = 1; k <= lastScale; ++k) {
+        const auto s = static_cast<std::size_t>(tables.sMin + k);
+        const auto area = hn::Set(di, tables.area[s]);
+        const auto before = hn::Set(di, tables.area[s - 1]);
+        auto change = hn::Zero(di);
+        const std::uint16_t* count = part.counts.get() + k * part.present * kPart + x;
+        for (int b = 0; b < part.present; ++b, count += kPart) {
+            const auto n = hn::PromoteTo(di, hn::Load(d16, count));
+            const auto old = hn::PromoteTo(di, hn::Load(d16, count - part.present * kPart));
+            // r N' - n' R, with r = n - n' and R = N - N'
+            change = hn::Add(change, hn::Max(hn::Sub(hn::Mul(n, before), hn::Mul(old, area)), hn::Zero(di)));
+        }
+        hn::Store(change, di, part.change.get() + k * kPart + x);
+    }
+}
+
+template <class COUNT>
+void searchAbove(const TScaleTables& tables, const COUNT* discs, double yMin, TPart& part) {
+    const DFloat d;
+    boundChanges(tables, discs, part);
+    boundW(tables, part);
+    clearMarks(tables, part);
+    for (int i = 0; i < kPart; ++i) part.place[i] = static_cast<std::uint8_t>(i);
+    const int scales = tables.scales();
+    const auto least = hn::Set(d, static_cast<float>(yMin / tables.logTwo * (1 - 1e-5)));
+    const auto highest = hn::Set(d, static_cast<float>(std::log2(part.present)) + 1e-4F);
+    for (int x = 0; x < kPart; x += kFloats) {
+        const float* const w = part.wBound.get() + x;
+        int lastCandidate = 0;
+        int entropiesTo = -1;  // scales whose entropies are known, of those last asked for
+        for (int k = 1; k + 1 < scales; ++k) {
+            const auto wHere = hn::Load(d, w + k * kPart);
+            if (hn::AllFalse(d, hn::Ge(hn::Mul(wHere, highest), least))) continue;
+            float* const entropy = part.entropy.get() + k * kPart + x;
+            for (int i = std::max(k - 1, entropiesTo + 1); i <= k + 1; ++i)
+                hn::Store(entropyOf(tables, part, i, x), d, part.entropy.get() + i * kPart + x);
+            entropiesTo = k + 1;
+            const auto at = hn::Load(d, entropy);
+            const auto salient = hn::Ge(hn::Mul(wHere, hn::Add(at, hn::Set(d, 1e-4F))), least);
+            if (hn::AllFalse(d, salient)) continue;
+            lastCandidate = k;
+            mark(hn::Load(d, entropy - kPart), at, hn::Load(d, entropy + kPart), salient,
+                 marginOf(part), k, x, part);
+        }
+        if (lastCandidate == 0) continue;
+        computeChanges(tables, x, lastCandidate + 1, part);
+        computeW(tables, x, kFloats, lastCandidate + 1, part);
+    }
+}
+
+template <class COUNT>
+TKernels<COUNT> kernels() {
+    return {discs<COUNT>, search<COUNT>, searchAbove<COUNT>};
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace salma::saliency
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace salma::saliency {
+
+TPart::TPart(const TScaleTables& tables) {
+    const auto n = static_cast<std::size_t>(tables.scales() * kPart);
+    const auto words = static_cast<std::size_t>((tables.scales() + kInWord - 1) / kInWord * kPart);
+    counts = hwy::AllocateAligned<std::uint16_t>(n * static_cast<std::size_t>(tables.bins));
+    bound = hwy::AllocateAligned<std::uint16_t>(n);
+    change = hwy::AllocateAligned<std::int32_t>(n);
+    entropy = hwy::AllocateAligned<float>(n);
+    wBound = hwy::AllocateAligned<float>(n);
+    w = hwy::AllocateAligned<double>(n);
+    certain = hwy::AllocateAligned<std::uint32_t>(words);
+    possible = hwy::AllocateAligned<std::uint32_t>(words);
+}
+
 namespace {
 
-// Forced inlining compiles these anew inside of each function that has a target attribute.
-#define SALMA_INLINE [[gnu::always_inline]] inline
-
-template <class COUNT>
-SALMA_INLINE void add(COUNT* __restrict sum, const COUNT* a, const COUNT* b, int n) {
-    for (int x = 0; x < n; ++x) sum[x] = static_cast<COUNT>(a[x] + b[x]);
-}
-
-template <class COUNT>
-SALMA_INLINE void subtract(COUNT* __restrict out, const COUNT* a, const COUNT* b, int n) {
-    for (int x = 0; x < n; ++x) out[x] = static_cast<COUNT>(a[x] - b[x]);
-}
-
-/// kLanes counts in registers of WIDTH bytes each, as the compilers' vector types.
-template <class COUNT, int WIDTH>
-struct TRegisters {
-    typedef COUNT TVector __attribute__((vector_size(WIDTH)));
-    static constexpr int kEach = WIDTH / static_cast<int>(sizeof(COUNT));
-    static constexpr int kCount = kLanes / kEach;
-    TVector v[kCount];
-
-    SALMA_INLINE void set(const COUNT* from) { std::memcpy(v, from, sizeof v); }
-    SALMA_INLINE void add(const COUNT* from) {
-        for (int i = 0; i < kCount; ++i) {
-            TVector other;
-            std::memcpy(&other, from + i * kEach, sizeof other);
-            v[i] += other;
-        }
-    }
-    SALMA_INLINE void subtract(const COUNT* from) {
-        for (int i = 0; i < kCount; ++i) {
-            TVector other;
-            std::memcpy(&other, from + i * kEach, sizeof other);
-            v[i] -= other;
-        }
-    }
-    SALMA_INLINE void store(COUNT* to) const { std::memcpy(to, v, sizeof v); }
+/// Highway's target of each of ours, widest first, if the compiler made it.
+struct TTarget {
+    ESimd simd;
+    std::int64_t target;
 };
 
-/** The sums from which discsImpl puts discs together, for the centres of one row y. */
-template <class COUNT>
-struct TRowSums {
-    COUNT* rowPairs;  //!< Of row j: rows y+j and y-j.
-    COUNT* columns;   //!< Of h: rows y-h..y+h.
-    COUNT* squares;   //!< Of m: rows y-m..y+m.
-};
-
-template <class COUNT>
-SALMA_INLINE void sumRows(const TScaleTables& tables,
-                          const TPlanes<COUNT>& planes,
-                          int row,
-                          const TRowSums<COUNT>& sums) {
-    const int stride = planes.stride;
-    const int smallest = tables.innerSquare[static_cast<std::size_t>(tables.sMin)];
-    for (int j = smallest + 1; j <= tables.sMax; ++j)
-        add(sums.rowPairs + j * stride, planes.alongRow + (row + j) * stride,
-            planes.alongRow + (row - j) * stride, stride);
-    for (int h = 0; h <= tables.innerSquare.back(); ++h) {
-        const int below = (row + h + 1) * stride;
-        const int above = (row - h) * stride;
-        subtract(sums.columns + h * stride, planes.alongColumn + below, planes.alongColumn + above,
-                 stride);
-        subtract(sums.squares + h * stride, planes.square + below, planes.square + above, stride);
-    }
-}
-
-template <class COUNT, int WIDTH>
-SALMA_INLINE void discsImpl(
-    const TScaleTables& tables, const TPlanes<COUNT>& planes, int row, COUNT* scratch, COUNT* out) {
-    const int stride = planes.stride;
-    const int third = (tables.sMax + 1) * stride;
-    const TRowSums<COUNT> sums{scratch, scratch + third, scratch + 2 * third};
-    sumRows(tables, planes, row, sums);
-    for (int s = tables.sMin; s <= tables.sMax; ++s, out += kLanes) {
-        const int m = tables.innerSquare[static_cast<std::size_t>(s)];
-        const COUNT* const square = sums.squares + m * stride + tables.sMax;
-        TRegisters<COUNT, WIDTH> disc;
-        disc.set(square + m + 1);
-        disc.subtract(square - m);
-        for (const auto& outer : tables.outerRows[static_cast<std::size_t>(s)]) {
-            const COUNT* const pair = sums.rowPairs + outer.j * stride + tables.sMax;
-            const COUNT* const column = sums.columns + outer.half * stride + tables.sMax;
-            disc.add(pair + outer.half + 1);
-            disc.subtract(pair - outer.half);
-            disc.add(column + outer.j);
-            disc.add(column - outer.j);
-        }
-        disc.store(out);
-    }
-}
-
-template <class COUNT>
-SALMA_INLINE void accumulateImpl(const TScaleTables& tables,
-                                 const COUNT* __restrict discs,
-                                 std::uint16_t* __restrict counts,
-                                 int stride,
-                                 std::int32_t* __restrict change) {
-    for (int x = 0; x < kLanes; ++x) counts[x] = discs[x];
-    for (int s = tables.sMin + 1; s <= tables.sMax; ++s) {
-        const int before = tables.area[static_cast<std::size_t>(s) - 1];
-        const int inRing = tables.area[static_cast<std::size_t>(s)] - before;
-        const std::uint16_t* const previous = counts;
-        discs += kLanes;
-        counts += stride;
-        change += kLanes;
-        for (int x = 0; x < kLanes; ++x) {
-            const auto ring = static_cast<COUNT>(discs[x] - discs[x - kLanes]);
-            const std::int32_t growth = ring * before - previous[x] * inRing;
-            counts[x] = static_cast<std::uint16_t>(previous[x] + ring);
-            change[x] += growth > 0 ? growth : 0;
-        }
-    }
-}
-
-// One pair of functions for each instruction set.
-template <class COUNT>
-void discsBaseline(
-    const TScaleTables& tables, const TPlanes<COUNT>& planes, int row, COUNT* scratch, COUNT* out) {
-    discsImpl<COUNT, 16>(tables, planes, row, scratch, out);
-}
-
-template <class COUNT>
-void accumulateBaseline(const TScaleTables& tables,
-                        const COUNT* discs,
-                        std::uint16_t* counts,
-                        int stride,
-                        std::int32_t* change) {
-    accumulateImpl(tables, discs, counts, stride, change);
-}
-
-#ifdef SALMA_X86
-template <class COUNT>
-[[gnu::target("avx2")]] void discsAvx2(
-    const TScaleTables& tables, const TPlanes<COUNT>& planes, int row, COUNT* scratch, COUNT* out) {
-    discsImpl<COUNT, 32>(tables, planes, row, scratch, out);
-}
-
-template <class COUNT>
-[[gnu::target("avx2")]] void accumulateAvx2(const TScaleTables& tables,
-                                            const COUNT* discs,
-                                            std::uint16_t* counts,
-                                            int stride,
-                                            std::int32_t* change) {
-    accumulateImpl(tables, discs, counts, stride, change);
-}
-
-template <class COUNT>
-[[gnu::target("avx512bw,avx512vl,prefer-vector-width=512")]] void discsAvx512(
-    const TScaleTables& tables, const TPlanes<COUNT>& planes, int row, COUNT* scratch, COUNT* out) {
-    discsImpl<COUNT, 64>(tables, planes, row, scratch, out);
-}
-
-template <class COUNT>
-[[gnu::target("avx512bw,avx512vl,prefer-vector-width=512")]] void accumulateAvx512(
-    const TScaleTables& tables,
-    const COUNT* discs,
-    std::uint16_t* counts,
-    int stride,
-    std::int32_t* change) {
-    accumulateImpl(tables, discs, counts, stride, change);
-}
-#endif
+constexpr TTarget kTargets[] = {{ESimd::avx512, HWY_AVX3},
+                                {ESimd::avx2, HWY_AVX2},
+                                {ESimd::sse4, HWY_SSE4},
+                                {ESimd::neon, HWY_NEON},
+                                {ESimd::portable, HWY_EMU128}};
 
 }  // namespace
 
+bool hasSimd(ESimd simd) {
+    const std::int64_t supported = (hwy::SupportedTargets() | HWY_EMU128) & HWY_TARGETS;
+    return std::any_of(std::begin(kTargets), std::end(kTargets), [&](const TTarget& t) {
+        return t.simd == simd && (supported & t.target) != 0;
+    });
+}
+
 ESimd bestSimd() {
-#ifdef SALMA_X86
-    if (__builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl"))
-        return ESimd::avx512;
-    if (__builtin_cpu_supports("avx2")) return ESimd::avx2;
-#endif
-    return ESimd::baseline;
+    for (const auto& t : kTargets)
+        if (hasSimd(t.simd)) return t.simd;
+    return ESimd::portable;
 }
 
 template <class COUNT>
 TKernels<COUNT> kernelsFor(ESimd simd) {
-#ifdef SALMA_X86
-    const ESimd usable = std::min(simd, bestSimd());
-    if (usable == ESimd::avx512) return {discsAvx512<COUNT>, accumulateAvx512<COUNT>};
-    if (usable == ESimd::avx2) return {discsAvx2<COUNT>, accumulateAvx2<COUNT>};
-#else
-    static_cast<void>(simd);
+    if (simd == ESimd::automatic) simd = bestSimd();
+    if (!hasSimd(simd))
+        throw std::invalid_argument("saliency: this processor or build lacks the chosen simd");
+#if HWY_TARGETS & HWY_AVX3
+    if (simd == ESimd::avx512) return N_AVX3::kernels<COUNT>();
 #endif
-    return {discsBaseline<COUNT>, accumulateBaseline<COUNT>};
+#if HWY_TARGETS & HWY_AVX2
+    if (simd == ESimd::avx2) return N_AVX2::kernels<COUNT>();
+#endif
+#if HWY_TARGETS & HWY_SSE4
+    if (simd == ESimd::sse4) return N_SSE4::kernels<COUNT>();
+#endif
+#if HWY_TARGETS & HWY_NEON
+    if (simd == ESimd::neon) return N_NEON::kernels<COUNT>();
+#endif
+    return N_EMU128::kernels<COUNT>();
 }
 
 template TKernels<std::uint8_t> kernelsFor(ESimd simd);
 template TKernels<std::uint16_t> kernelsFor(ESimd simd);
 
 }  // namespace salma::saliency
+#endif

@@ -70,7 +70,7 @@ TScaleSaliencyOptions smallScales() {
 void expectAsReference(const cv::Mat& picture, const TScaleSaliencyOptions& options) {
     const auto reference = test::referenceScaleSaliency(picture, options);
     ASSERT_FALSE(reference.empty());
-    for (const ESimd simd : {ESimd::baseline, ESimd::avx2, ESimd::avx512})
+    for (const ESimd simd : {ESimd::portable, ESimd::sse4, ESimd::avx2, ESimd::avx512})
         expectSame(CScaleSaliency(options, simd).detect(picture), reference, 1e-11);
 }
 

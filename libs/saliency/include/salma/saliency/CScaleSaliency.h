@@ -14,6 +14,15 @@ struct TScaleTables;
 
 enum class ELogBase { natural, two };
 
+/// Instruction sets of the inner loops; all give the same numbers.
+enum class ESimd { automatic, portable, sse4, avx2, avx512, neon };
+
+/// Whether both this program and this processor know an instruction set.
+bool hasSimd(ESimd simd);
+
+/// The widest instruction set that both know.
+ESimd bestSimd();
+
 /// Section [saliency].
 struct TScaleSaliencyOptions : public config::TStrictOptions<TScaleSaliencyOptions> {
     int scaleMin{3};                      //!< Smallest radius [px]; never the scale of a peak.
@@ -28,12 +37,6 @@ struct TScaleSaliencyOptions : public config::TStrictOptions<TScaleSaliencyOptio
     /// \throw std::invalid_argument if there is no scale between the smallest and the largest.
     void validate() const;
 };
-
-/// Instruction sets of the fast path; all give the same numbers.
-enum class ESimd { baseline, avx2, avx512 };
-
-/// The widest instruction set that both this program and this processor know.
-ESimd bestSimd();
 
 /** Scale saliency of a grey picture: places and radii whose grey levels are most unpredictable.
  *
