@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <salma/saliency/ellipseGeometry.h>
 #include <salma/saliency/regionFiles.h>
 
 #include <cmath>
@@ -71,7 +72,8 @@ class CLines {
 
 std::size_t readCount(CLines& lines) {
     if (!lines.next()) lines.fail("file ends before the descriptor length 1.0");
-    if (lines.numbers(1)[0] != 1) lines.fail("descriptor length is not 1.0");
+    const double length = lines.numbers(1)[0];
+    if (length != 0 && length != 1) lines.fail("descriptor length is not 1.0 (or 0): none");
     if (!lines.next()) lines.fail("file ends before the number of regions");
     const double count = lines.numbers(1)[0];
     if (!(count >= 0 && count <= 1e9) || count != std::floor(count))
@@ -104,6 +106,20 @@ std::vector<TEllipse> readVgg(const std::string& file) {
         lines.fail("file ends after " + std::to_string(regions.size()) + " of " +
                    std::to_string(count) + " regions");
     return regions;
+}
+
+cv::Matx33d readHomography(const std::string& file) {
+    CLines lines(file);
+    cv::Matx33d H;
+    for (int row = 0; row < 3; ++row) {
+        if (!lines.next()) lines.fail("file ends after " + std::to_string(row) + " of 3 rows");
+        const auto values = lines.numbers(3);
+        for (int column = 0; column < 3; ++column)
+            H(row, column) = values[static_cast<std::size_t>(column)];
+    }
+    if (!isInvertible(H)) lines.fail("the matrix that ends here is singular");
+    if (lines.next()) lines.fail("more than 3 rows");
+    return H;
 }
 
 void writeRegionsCsv(const std::string& file,

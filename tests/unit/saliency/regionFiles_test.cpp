@@ -54,9 +54,16 @@ TEST(regionFiles, ReadBackWhatTheyWrote) {
     }
 }
 
+TEST(regionFiles, ReadADescriptorLengthOfZeroAsNone) {
+    // As VLBenchmarks writes it.
+    const std::string file = folder().write("zero.vgg", "0\n1\n1 2 0.5 0.1 0.5\n");
+    ASSERT_EQ(readVgg(file).size(), 1u);
+    EXPECT_EQ(readVgg(file)[0].b, 0.1);
+}
+
 TEST(regionFiles, NameFileLineAndMistake) {
     EXPECT_EQ(complaint(""), "broken.vgg:0: file ends before the descriptor length 1.0");
-    EXPECT_EQ(complaint("128\n0\n"), "broken.vgg:1: descriptor length is not 1.0");
+    EXPECT_EQ(complaint("128\n0\n"), "broken.vgg:1: descriptor length is not 1.0 (or 0): none");
     EXPECT_EQ(complaint("1.0\n"), "broken.vgg:1: file ends before the number of regions");
     EXPECT_EQ(complaint("1.0\n-1\n"),
               "broken.vgg:2: number of regions is not a whole number from 0 to 1e9");
@@ -81,6 +88,61 @@ TEST(regionFiles, EitherReadOrNameTheLineOfAnyBrokenFile) {
         if (said.empty()) continue;
         ASSERT_EQ(std::sscanf(said.c_str(), "broken.vgg:%zu: ", &line), 1) << said;
     }
+}
+
+/// What readHomography says about a file of this content; "" if it takes it.
+std::string matrixComplaint(const std::string& content) {
+    try {
+        readHomography(folder().write("H1to2p", content));
+        return "";
+    } catch (const std::runtime_error& e) {
+        const std::string text = e.what();
+        EXPECT_EQ(text.find((folder() / "H1to2p").string()), 0u) << text;
+        return text.substr(text.find("H1to2p"));
+    }
+}
+
+constexpr auto kMatrix =
+    "   8.7976964e-01   3.1245438e-01  -3.9430589e+01\n"
+    "  -1.8389418e-01   9.3847198e-01   1.5315784e+02\n"
+    "   1.9641425e-04  -1.6015275e-05   1.0000000e+00\n";
+
+TEST(regionFiles, ReadAHomographyByRows) {
+    const auto H = readHomography(folder().write("H1to2p", kMatrix));
+    EXPECT_EQ(H(0, 1), 0.31245438);
+    EXPECT_EQ(H(1, 2), 153.15784);
+    EXPECT_EQ(H(2, 0), 1.9641425e-04);
+    EXPECT_EQ(matrixComplaint(std::string(kMatrix) + "\n  \r\n"), "");
+}
+
+TEST(regionFiles, NameWhatIsWrongWithAHomography) {
+    EXPECT_EQ(matrixComplaint(""), "H1to2p:0: file ends after 0 of 3 rows");
+    EXPECT_EQ(matrixComplaint("1 0 0\n0 1 0\n"), "H1to2p:2: file ends after 2 of 3 rows");
+    EXPECT_EQ(matrixComplaint("1 0 0\n0 1\n0 0 1\n"), "H1to2p:2: expected 3 numbers, got 2");
+    EXPECT_EQ(matrixComplaint("1 0 0\n0 nan 0\n0 0 1\n"), "H1to2p:2: 'nan' is not a finite number");
+    EXPECT_EQ(matrixComplaint("1 0 0\n0 1 0\n0 0 1e999\n"),
+              "H1to2p:3: '1e999' is not a finite number");
+    EXPECT_EQ(matrixComplaint("1 2 3\n2 4 6\n0 0 1\n"),
+              "H1to2p:3: the matrix that ends here is singular");
+    EXPECT_EQ(matrixComplaint(std::string(kMatrix) + "1 2 3\n"), "H1to2p:4: more than 3 rows");
+    EXPECT_THROW(readHomography((folder() / "missing").string()), std::runtime_error);
+}
+
+TEST(regionFiles, EitherReadOrNameTheLineOfAnyBrokenHomography) {
+    const std::string whole = kMatrix;
+    std::mt19937 random(12);
+    int refused = 0;
+    for (int i = 0; i < 1000; ++i) {
+        std::string text = whole.substr(0, i % 3 == 0 ? random() % whole.size() : whole.size());
+        for (std::size_t k = 0; k < 1 + random() % 4 && !text.empty(); ++k)
+            text[random() % text.size()] = static_cast<char>(random() % 256);
+        std::size_t line = 0;
+        const std::string said = matrixComplaint(text);
+        if (said.empty()) continue;
+        ++refused;
+        ASSERT_EQ(std::sscanf(said.c_str(), "H1to2p:%zu: ", &line), 1) << said;
+    }
+    EXPECT_GT(refused, 500);
 }
 
 TEST(regionFiles, WriteTablesWithUnitsInTheirColumns) {

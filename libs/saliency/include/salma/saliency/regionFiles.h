@@ -4,6 +4,7 @@
 #include <salma/saliency/CStableRegions.h>
 #include <salma/saliency/TEllipse.h>
 
+#include <opencv2/core/matx.hpp>
 #include <string>
 #include <vector>
 
@@ -15,10 +16,16 @@ namespace salma::saliency {
  * \throw std::runtime_error if the file cannot be written. */
 void writeVgg(const std::string& file, const std::vector<TEllipse>& regions);
 
-/** Reads what writeVgg writes.
+/** Reads what writeVgg writes. The first number may be 0 as well: programs write either where
+ * regions have no descriptor.
  * \throw std::runtime_error if the file cannot be read, or "FILE:LINE: problem" if a line is not
  * what it should be, an ellipse is not one, or lines are missing or too many. */
 std::vector<TEllipse> readVgg(const std::string& file);
+
+/** Reads a homography of the same benchmark, or of HPatches: three lines of three numbers.
+ * \throw std::runtime_error if the file cannot be read, "FILE:LINE: problem" if a line is not what
+ * it should be, lines are missing or too many, or the matrix is singular. */
+cv::Matx33d readHomography(const std::string& file);
 
 /** Writes `x_px,y_px,scale_px,entropy,interscale,saliency`, one line for each region.
  * \throw std::runtime_error if the file cannot be written. */
