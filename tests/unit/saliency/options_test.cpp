@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <mrpt/config/CConfigFileMemory.h>
+#include <salma/saliency/CAffineSaliency.h>
 #include <salma/saliency/CGreedyClusterer.h>
 #include <salma/saliency/CScaleSaliency.h>
 #include <salma/saliency/CStableRegions.h>
@@ -52,7 +53,7 @@ TEST(SaliencyOptions, RefuseValuesBeyondTheirRanges) {
         EXPECT_THROW(load<TStableRegionsOptions>(wrong), std::invalid_argument) << wrong;
 }
 
-TEST(SaliencyOptions, ReadBackClusteringAndStableRegions) {
+TEST(SaliencyOptions, ReadBackClusteringStableAndAffineRegions) {
     TClusteringOptions clustering;
     clustering.wMin = 0.75;
     expectReadsWhatItWrites(clustering);
@@ -61,6 +62,12 @@ TEST(SaliencyOptions, ReadBackClusteringAndStableRegions) {
     mser.minArea = 99;
     mser.maxAreaFraction = 0.125;
     expectReadsWhatItWrites(mser);
+    TAffineOptions affine;
+    affine.use = true;
+    affine.maxRatio = 2.5;
+    affine.elongationCost = 0;
+    affine.maxSteps = 7;
+    expectReadsWhatItWrites(affine);
 }
 
 }  // namespace
