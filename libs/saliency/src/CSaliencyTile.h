@@ -8,9 +8,6 @@
 
 namespace salma::saliency {
 
-constexpr int kTileRows = 64;  // so that the planes of a tile fit into a second-level cache
-constexpr int kBandRows = 8;   // so that the window of one bin fits into a first-level cache
-
 /// A peak of a row of centres; its Y is H W.
 struct TPeak {
     std::uint16_t column{0};  //!< Centre [px].
@@ -35,13 +32,11 @@ class CSaliencyTile {
     void detect(const cv::Mat& bins, const cv::Rect& centres, double yMin, TPeaks* rows);
 
  private:
-    void fillPlanes(const cv::Mat& bins, const cv::Rect& window);
-    void fillPlane(const cv::Mat& bins, const cv::Rect& window, std::size_t bin);
-    TPlanes<COUNT> planesOf(std::size_t bin) const;
+    void fillBitmaps(const cv::Mat& window);
     /// Bins with a pixel in the discs of the centres of `count` rows from `row`.
     void findPresent(int row, int count);
     void detectBand(const cv::Rect& centres, int row, TPeaks* rows);
-    void countBand(int row, int count);
+    void countBand(int row);
     /// Peaks of the centres x..x+kPart-1 of a row of the band, of which `count` exist.
     void searchPart(int bandRow, int x);
     void emitPeaks(int firstColumn, int count, TPeaks& found) const;
@@ -52,15 +47,13 @@ class CSaliencyTile {
     TKernels<COUNT> m_kernels;
     int m_scales;
     double m_yMin{0};
-    std::size_t m_plane;       //!< Counts of one of a bin's three arrays.
-    std::size_t m_bandCounts;  //!< Counts of a bin in a row of the band.
+    std::size_t m_ofBin;  //!< Counts of a bin in a row of centres.
 
-    std::vector<hwy::AlignedFreeUniquePtr<COUNT[]>> m_planes;  //!< Of each bin: three arrays.
-    std::vector<std::vector<std::uint8_t>> m_inRow;            //!< [bin][row] whether it occurs.
-    std::vector<std::size_t> m_present;                        //!< Bins, ascending.
-    hwy::AlignedFreeUniquePtr<COUNT[]> m_scratch;
-    hwy::AlignedFreeUniquePtr<COUNT[]> m_discs;  //!< [band row][present][scale][lane]
-    std::size_t m_discsSize{0};
+    std::vector<hwy::AlignedFreeUniquePtr<std::uint64_t[]>> m_bitmaps;  //!< Of each bin.
+    std::vector<std::vector<std::uint8_t>> m_inRow;  //!< [bin][row] whether it occurs there.
+    std::vector<std::size_t> m_present;              //!< Bins, ascending.
+    hwy::AlignedFreeUniquePtr<COUNT[]> m_rings;      //!< [band row][present][scale][lane]
+    std::size_t m_ringsSize{0};
     TPart m_part;
 };
 

@@ -10,11 +10,11 @@ namespace {
 /// Largest h with h^2 <= square.
 int floorRoot(int square) { return static_cast<int>(std::sqrt(static_cast<double>(square))); }
 
-int halfWidth(int s, int j) { return floorRoot(s * s - j * j); }
-
-int innerSquare(int s) { return floorRoot(s * s / 2); }
-
-int roundedUp(int n) { return (n + kLanes - 1) / kLanes * kLanes; }
+/// Smallest h with h^2 >= square.
+int ceilRoot(int square) {
+    const int root = floorRoot(square);
+    return root * root == square ? root : root + 1;
+}
 
 }  // namespace
 
@@ -31,7 +31,7 @@ TScaleTables::TScaleTables(const TScaleSaliencyOptions& options)
         nLogN[n] = x * log(x);
     }
     boundW();
-    planDiscs();
+    listRings();
 }
 
 double TScaleTables::log(double x) const { return logTwo == 1 ? std::log2(x) : std::log(x); }
@@ -39,7 +39,7 @@ double TScaleTables::log(double x) const { return logTwo == 1 ? std::log2(x) : s
 void TScaleTables::countDiscs() {
     for (int s = 0; s <= sMax; ++s) {
         int pixels = 0;
-        for (int j = -s; j <= s; ++j) pixels += 2 * halfWidth(s, j) + 1;
+        for (int j = -s; j <= s; ++j) pixels += 2 * floorRoot(s * s - j * j) + 1;
         area.push_back(pixels);
     }
 }
@@ -66,52 +66,32 @@ void TScaleTables::boundW() {
     for (std::size_t s = 0; s < area.size(); ++s) wMax[s] *= wFactor[s];
 }
 
-void TScaleTables::planDiscs() {
-    plan.origin = kLanes / 2;
-    while (plan.origin < sMax) plan.origin += kLanes;
-    plan.stride = roundedUp(plan.origin + kLanes + sMax + 1);
-    if (plan.stride / kLanes % 2 == 0) plan.stride += kLanes;
-
-    const int largest = innerSquare(sMax);
-    std::int32_t slot = 0;
-    const auto reserve = [&](std::vector<TDiscPlan::TSum>& sums, int from, int to) {
-        for (int size = from; size <= to; ++size, slot += plan.stride)
-            sums.push_back({size, plan.stride, 0, slot});
-    };
-    const int firstRow = innerSquare(sMin) + 1;
-    reserve(plan.rowPairs, firstRow, sMax);
-    reserve(plan.columns, 0, largest);
-    reserve(plan.squares, innerSquare(sMin), largest);
-    plan.scratchSize = slot;
-    /// Where column x + shift of a sum is, if x is the first centre's; it will be needed.
-    const auto at = [this](TDiscPlan::TSum& sum, int shift) {
-        const int column = plan.origin + shift;
-        sum.first = std::min(sum.first, column);
-        sum.last = std::max(sum.last, column + kLanes);
-        return sum.slot + column;
-    };
-    for (int s = sMin; s <= sMax; ++s) {
-        const int m = innerSquare(s);
-        auto& square = plan.squares[static_cast<std::size_t>(m - innerSquare(sMin))];
-        TDiscPlan::TDisc disc{at(square, m + 1), at(square, -m), {}};
-        for (int j = m + 1; j <= s; ++j) {
-            const int half = halfWidth(s, j);
-            auto& pair = plan.rowPairs[static_cast<std::size_t>(j - firstRow)];
-            auto& column = plan.columns[static_cast<std::size_t>(half)];
-            disc.rows.push_back(
-                {at(pair, half + 1), at(pair, -half), at(column, j), at(column, -j)});
+void TScaleTables::listRings() {
+    constexpr int kLine = 8;  // words
+    bitmap.reach = sMax;
+    bitmap.stride = (kTileRows + 2 * sMax + kLine - 1) / kLine * kLine;
+    if (bitmap.stride / kLine % 2 == 0) bitmap.stride += kLine;
+    bitmap.zeros = (2 * sMax + 1) * bitmap.stride;
+    bitmap.size = bitmap.zeros + bitmap.stride;
+    rings.resize(static_cast<std::size_t>(scales()));
+    for (int dx = -sMax; dx <= sMax; ++dx)
+        for (int dy = -sMax; dy <= sMax; ++dy) {
+            const int s = std::max(sMin, ceilRoot(dx * dx + dy * dy));
+            if (s <= sMax)
+                rings[static_cast<std::size_t>(s - sMin)].push_back(bitmap.offset(dx, dy));
         }
-        plan.discs.push_back(disc);
-    }
-    const auto unused = [](const TDiscPlan::TSum& sum) { return sum.first >= sum.last; };
-    for (auto* sums : {&plan.rowPairs, &plan.columns, &plan.squares})
-        sums->erase(std::remove_if(sums->begin(), sums->end(), unused), sums->end());
+    for (auto& ring : rings)
+        while (ring.size() % kAtOnce != 0) ring.push_back(bitmap.zeros);
+}
+
+int TScaleTables::inRing(int k) const {
+    const auto s = static_cast<std::size_t>(sMin + k);
+    return k == 0 ? area[s] : area[s] - area[s - 1];
 }
 
 bool TScaleTables::fitsBytes() const {
-    bool fits = area[static_cast<std::size_t>(sMin)] < 256;
-    for (auto s = static_cast<std::size_t>(sMin) + 1; s < area.size(); ++s)
-        fits = fits && area[s] - area[s - 1] < 256;
+    bool fits = true;
+    for (int k = 0; k < scales(); ++k) fits = fits && inRing(k) < 256;
     return fits;
 }
 

@@ -8,43 +8,24 @@
 
 namespace salma::saliency {
 
-constexpr int kLanes = 64;  // centres that are counted together
+constexpr int kLanes = 64;  // centres of a row that are counted together
+constexpr int kAtOnce = 8;  // ring pixels that are added at once
 
-/** Where the sums are, relative to a centre's own column, that row j of disc(s) and its three
- * mirror images in the diagonals need. */
-struct TRowTerms {
-    std::int32_t rowRight{0};  //!< Of the pair of rows y+j and y-j: columns before x + half + 1,
-    std::int32_t rowLeft{0};   //!< less those before x - half.
-    std::int32_t columnRight{0};  //!< Rows y-half..y+half of column x+j,
-    std::int32_t columnLeft{0};   //!< and of column x-j.
-};
+constexpr int kTileRows = 64;  // so that a bin's bitmap of a tile fits into a second-level cache
+constexpr int kBandRows = 8;   // rows of centres that are counted together
 
-/** How to count a bin's pixels in all discs about kLanes centres of a row y.
- *
- * disc(s) = {i^2 + j^2 <= s^2} is cut into the square [-m,m]^2 with m = floor(s / sqrt(2)), the
- * rows m < |j| <= s and, by symmetry, the columns m < |i| <= s. Sums that several discs share are
- * kept in slots of `stride` columns. */
-struct TDiscPlan {
-    /// One shared sum, needed for columns first..last-1 of its slot.
-    struct TSum {
-        int size{0};  //!< j of a pair of rows, h of a column, m of a square.
-        int first{0};
-        int last{0};
-        std::int32_t slot{0};  //!< Its first column.
-    };
-    struct TDisc {
-        std::int32_t squareRight{0};
-        std::int32_t squareLeft{0};
-        std::vector<TRowTerms> rows;
-    };
+/** A bin's bitmap over the window of a tile, made for counting: word (dx, row) has the bits of
+ * kLanes neighbouring pixels, the first of which is dx columns right of the first centre. Words of
+ * one dx stand one row after the other, so that one load takes the same ring pixel of kLanes
+ * centres in each of several rows. */
+struct TBitmapLayout {
+    int reach{0};   //!< Both dx and the rows above the first centre go from -reach.
+    int stride{0};  //!< Words of one dx: an odd number of cache lines.
+    int zeros{0};   //!< First of `stride` words that are always 0.
+    int size{0};    //!< Words in all.
 
-    int origin{0};  //!< Column of the first centre; half a cache line after a line's begin.
-    int stride{0};  //!< An odd number of cache lines, so that rows spread over the cache.
-    std::vector<TSum> rowPairs;  //!< Rows y+j and y-j, columns before x.
-    std::vector<TSum> columns;   //!< Rows y-h..y+h of column x.
-    std::vector<TSum> squares;   //!< Rows y-m..y+m, columns before x.
-    std::vector<TDisc> discs;    //!< Of s = sMin..sMax.
-    int scratchSize{0};          //!< Columns of all slots.
+    /// Of a pixel dx right of and dy below the centre; add the centre's row in the tile.
+    std::int32_t offset(int dx, int dy) const { return (dx + reach) * stride + dy + reach; }
 };
 
 /// What depends on the options alone. Arrays are indexed by the radius s = 0..sMax [px].
@@ -61,18 +42,24 @@ struct TScaleTables {
     std::vector<double> wFactor;  //!< s^2 / (2s - 1).
     std::vector<double> wMax;     //!< Largest W that any picture can have.
     double logTwo;                //!< log 2 in the chosen base.
-    TDiscPlan plan;
+    TBitmapLayout bitmap;
+    /** Offsets of the pixels of ring(s) = {(s-1)^2 < i^2 + j^2 <= s^2}, for s = sMin..sMax, the
+     * first being the whole disc; filled up to a multiple of kAtOnce with zeros of the bitmap. */
+    std::vector<std::vector<std::int32_t>> rings;
 
     int scales() const { return sMax - sMin + 1; }
     double log(double x) const;
 
-    /// Whether discs modulo 256 tell their rings: true up to radius 40 if sMin <= 9.
+    /// Pixels of the ring at scale k, counted from sMin.
+    int inRing(int k) const;
+
+    /// Whether the number of a ring's pixels fits into a byte: true up to 40 if sMin <= 9.
     bool fitsBytes() const;
 
  private:
     void countDiscs();
     void boundW();
-    void planDiscs();
+    void listRings();
 };
 
 }  // namespace salma::saliency

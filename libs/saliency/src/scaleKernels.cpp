@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <iterator>
 #include <stdexcept>
 #include <string>
@@ -37,78 +38,151 @@ constexpr int kDoubles = static_cast<int>(hn::MaxLanes(DDouble()));
 
 // ---------------------------------------------------------------- counting
 
-template <class COUNT>
-HWY_INLINE void add(COUNT* out, const COUNT* a, const COUNT* b, const TDiscPlan::TSum& sum) {
-    const hn::CappedTag<COUNT, kLanes> d;
+using D64 = hn::CappedTag<std::uint64_t, kBandRows>;  // one word of kLanes bits for each row
+using V64 = hn::Vec<D64>;
+constexpr int kWords = static_cast<int>(hn::MaxLanes(D64()));
+constexpr int kMaxWords = 2 * 128 / 64 + 2;  // of a row of the largest window
+
+/// Bits of the pixels of a row that are in a bin; `words` has room for two words more.
+HWY_INLINE void bitsOf(const std::uint8_t* row, int width, std::uint8_t bin, std::uint64_t* words) {
+    const hn::CappedTag<std::uint8_t, kLanes> d;
     constexpr int n = static_cast<int>(hn::MaxLanes(d));
-    for (int c = sum.first / n * n; c < sum.last; c += n)
-        hn::Store(hn::Add(hn::Load(d, a + c), hn::Load(d, b + c)), d, out + c);
+    auto* const bytes = reinterpret_cast<std::uint8_t*>(words);
+    int x = 0;
+    for (; x + n <= width; x += n)
+        hn::StoreMaskBits(d, hn::Eq(hn::LoadU(d, row + x), hn::Set(d, bin)), bytes + x / 8);
+    std::uint64_t rest[2] = {0, 0};
+    for (int i = 0; x + i < width; ++i)
+        rest[i / 64] |= static_cast<std::uint64_t>(row[x + i] == bin) << (i % 64);
+    std::memcpy(bytes + x / 8, rest, sizeof rest);
 }
 
-template <class COUNT>
-HWY_INLINE void subtract(COUNT* out, const COUNT* a, const COUNT* b, const TDiscPlan::TSum& sum) {
-    const hn::CappedTag<COUNT, kLanes> d;
-    constexpr int n = static_cast<int>(hn::MaxLanes(d));
-    for (int c = sum.first / n * n; c < sum.last; c += n)
-        hn::Store(hn::Sub(hn::Load(d, a + c), hn::Load(d, b + c)), d, out + c);
-}
-
-template <class COUNT>
-HWY_INLINE void sumRows(const TDiscPlan& plan,
-                        const TPlanes<COUNT>& planes,
-                        int row,
-                        COUNT* scratch) {
-    const auto at = [&](const COUNT* plane, int r) { return plane + r * plan.stride; };
-    for (const auto& sum : plan.rowPairs)
-        add(scratch + sum.slot, at(planes.alongRow, row + sum.size),
-            at(planes.alongRow, row - sum.size), sum);
-    for (const auto& sum : plan.columns)
-        subtract(scratch + sum.slot, at(planes.alongColumn, row + sum.size + 1),
-                 at(planes.alongColumn, row - sum.size), sum);
-    for (const auto& sum : plan.squares)
-        subtract(scratch + sum.slot, at(planes.square, row + sum.size + 1),
-                 at(planes.square, row - sum.size), sum);
-}
-
-template <class COUNT>
-void discs(const TScaleTables& tables,
-           const TPlanes<COUNT>& planes,
-           int row,
-           COUNT* HWY_RESTRICT scratch,
-           COUNT* HWY_RESTRICT out) {
-    const hn::CappedTag<COUNT, kLanes> d;
-    constexpr int n = static_cast<int>(hn::MaxLanes(d));
-    sumRows(tables.plan, planes, row, scratch);
-    for (const auto& disc : tables.plan.discs) {
-        for (int x = 0; x < kLanes; x += n) {
-            const COUNT* const sums = scratch + x;
-            auto inside = hn::LoadU(d, sums + disc.squareRight);
-            auto outside = hn::LoadU(d, sums + disc.squareLeft);
-            for (const auto& term : disc.rows) {
-                inside = hn::Add(inside, hn::LoadU(d, sums + term.rowRight));
-                outside = hn::Add(outside, hn::LoadU(d, sums + term.rowLeft));
-                inside = hn::Add(inside, hn::LoadU(d, sums + term.columnRight));
-                outside = hn::Sub(outside, hn::LoadU(d, sums + term.columnLeft));
+void fill(const TBitmapLayout& layout,
+          const cv::Mat& window,
+          std::uint8_t bin,
+          std::uint64_t* bitmap,
+          std::uint8_t* inRow) {
+    const D64 d;
+    const int words = 2 * layout.reach / 64 + 2;
+    HWY_ALIGN std::uint64_t rows[kMaxWords * kBandRows] = {};  // [word][row]
+    HWY_ALIGN std::uint64_t row[kMaxWords + 2] = {};
+    for (int y = 0; y < window.rows; y += kBandRows) {
+        for (int r = 0; r < std::min(kBandRows, window.rows - y); ++r) {
+            bitsOf(window.ptr<std::uint8_t>(y + r), window.cols, bin, row);
+            std::uint64_t any = 0;
+            for (int i = 0; i < words; ++i) {
+                rows[i * kBandRows + r] = row[i];
+                any |= row[i];
             }
-            hn::Store(hn::Sub(inside, outside), d, out + x);
+            inRow[y + r] = any != 0 ? 1 : 0;
         }
-        out += kLanes;
+        for (int r = 0; r < kBandRows; r += kWords)
+            for (int shift = 0; shift <= 2 * layout.reach; ++shift) {
+                const std::uint64_t* const word = rows + shift / 64 * kBandRows + r;
+                const auto low = hn::ShiftRightSame(hn::Load(d, word), shift % 64);
+                // Two shifts, as one by 64 has no defined result.
+                const auto high = hn::ShiftLeftSame(
+                    hn::ShiftLeft<1>(hn::Load(d, word + kBandRows)), 63 - shift % 64);
+                hn::Store(hn::Or(low, high), d, bitmap + shift * layout.stride + y + r);
+            }
+    }
+}
+
+/// Adds a and b to sum, bit by bit, and returns the carries.
+HWY_INLINE V64 addBits(V64& sum, V64 a, V64 b) {
+#if HWY_TARGET == HWY_AVX3
+    const V64 carry{_mm512_ternarylogic_epi64(sum.raw, a.raw, b.raw, 0xe8)};
+    sum = V64{_mm512_ternarylogic_epi64(sum.raw, a.raw, b.raw, 0x96)};
+#else
+    const auto either = hn::Xor(a, b);
+    const auto carry = hn::Or(hn::And(a, b), hn::And(sum, either));
+    sum = hn::Xor(sum, either);
+#endif
+    return carry;
+}
+
+/** Counts ring pixels with carry-save adders: plane p has bit p of each centre's count. */
+template <int PLANES>
+HWY_INLINE void sumRing(const std::vector<std::int32_t>& ring,
+                        const std::uint64_t* bitmap,
+                        std::uint64_t* planes) {
+    const D64 d;
+    V64 plane[PLANES];
+    for (auto& p : plane) p = hn::Zero(d);
+    const std::int32_t* const end = ring.data() + ring.size();
+    for (const std::int32_t* at = ring.data(); at != end; at += kAtOnce) {
+        const auto pixel = [&](int i) { return hn::LoadU(d, bitmap + at[i]); };
+        auto twos0 = addBits(plane[0], pixel(0), pixel(1));
+        auto twos1 = addBits(plane[0], pixel(2), pixel(3));
+        const auto fours0 = addBits(plane[1], twos0, twos1);
+        twos0 = addBits(plane[0], pixel(4), pixel(5));
+        twos1 = addBits(plane[0], pixel(6), pixel(7));
+        const auto fours1 = addBits(plane[1], twos0, twos1);
+        auto carry = addBits(plane[2], fours0, fours1);
+        for (int p = 3; p < PLANES; ++p) {
+            const auto next = hn::And(plane[p], carry);
+            plane[p] = hn::Xor(plane[p], carry);
+            carry = next;
+        }
+    }
+    for (int p = 0; p < PLANES; ++p) hn::Store(plane[p], d, planes + p * kBandRows);
+}
+
+/// The counts whose bits are the planes of one row.
+template <int PLANES, class COUNT>
+HWY_INLINE void joinPlanes(const std::uint64_t* planes, COUNT* out) {
+    const hn::CappedTag<COUNT, kLanes> d;
+    constexpr int n = static_cast<int>(hn::MaxLanes(d));
+    for (int x = 0; x < kLanes; x += n) {
+        auto sum = hn::Zero(d);
+        for (int p = 0; p < PLANES; ++p) {
+            const auto* const bits =
+                reinterpret_cast<const std::uint8_t*>(planes + p * kBandRows) + x / 8;
+            const auto bit = hn::Set(d, static_cast<COUNT>(1U << p));
+            sum = hn::Or(sum, hn::IfThenElseZero(hn::LoadMaskBits(d, bits), bit));
+        }
+        hn::Store(sum, d, out + x);
+    }
+}
+
+template <int PLANES, class COUNT>
+void countRing(const std::vector<std::int32_t>& ring,
+               const std::uint64_t* bitmap,
+               std::size_t stride,
+               COUNT* out) {
+    HWY_ALIGN std::uint64_t planes[PLANES * kBandRows];
+    for (int r = 0; r < kBandRows; r += kWords) sumRing<PLANES>(ring, bitmap + r, planes + r);
+    for (std::size_t r = 0; r < kBandRows; ++r)
+        joinPlanes<PLANES>(planes + r, out + r * stride);
+}
+
+template <class COUNT>
+void count(const TScaleTables& tables,
+           const std::uint64_t* bitmap,
+           std::size_t stride,
+           COUNT* out) {
+    for (int k = 0; k < tables.scales(); ++k, out += kLanes) {
+        const auto& ring = tables.rings[static_cast<std::size_t>(k)];
+        const int most = tables.inRing(k);
+        if (most < 64)
+            countRing<6>(ring, bitmap, stride, out);
+        else if (most < 128)
+            countRing<7>(ring, bitmap, stride, out);
+        else if (most < 256)
+            countRing<8>(ring, bitmap, stride, out);
+        else if constexpr (sizeof(COUNT) == 2)
+            countRing<16>(ring, bitmap, stride, out);
     }
 }
 
 // ---------------------------------------------------------------- searching
 
-/// Pixels of the ring at scale k, as words.
-template <class COUNT>
-HWY_INLINE hn::Vec<D16> ringOf(const COUNT* disc, int k) {
-    const hn::Rebind<COUNT, D16> d;
-    auto ring = hn::LoadU(d, disc);
-    if (k > 0) ring = hn::Sub(ring, hn::LoadU(d, disc - kLanes));
-    if constexpr (sizeof(COUNT) == 1)
-        return hn::PromoteTo(D16(), ring);
-    else
-        return ring;
+/// Pixels of a ring, as words.
+HWY_INLINE hn::Vec<D16> ringOf(const std::uint8_t* ring) {
+    return hn::PromoteTo(D16(), hn::Load(hn::Rebind<std::uint8_t, D16>(), ring));
 }
+
+HWY_INLINE hn::Vec<D16> ringOf(const std::uint16_t* ring) { return hn::Load(D16(), ring); }
 
 /// max(0, r N - n R) of pairs (r in the lower half, n in the upper half of a word).
 template <class COUNT>
@@ -161,7 +235,7 @@ class CLogs {
 
 /// Counts, changes and entropies of all scales.
 template <class COUNT>
-void sumAll(const TScaleTables& tables, const COUNT* discs, TPart& part) {
+void sumAll(const TScaleTables& tables, const COUNT* rings, TPart& part) {
     const D16 d16;
     const DInt di;
     const DFloat df;
@@ -172,7 +246,7 @@ void sumAll(const TScaleTables& tables, const COUNT* discs, TPart& part) {
         const int area = tables.area[s];
         const int inRing = k > 0 ? area - tables.area[s - 1] : 0;
         const auto areas = hn::Set(di, area);
-        const auto rings = hn::Set(di, inRing);
+        const auto inRings = hn::Set(di, inRing);
         const auto both = hn::Set(di, (area & 0xffff) | -inRing * 65536);
         const CLogs logs(area);
         std::uint16_t* const counts = part.counts.get() + k * part.present * kPart;
@@ -181,17 +255,17 @@ void sumAll(const TScaleTables& tables, const COUNT* discs, TPart& part) {
             auto change1 = hn::Zero(di);
             auto sum0 = hn::Zero(df);
             auto sum1 = hn::Zero(df);
-            const COUNT* disc = discs + k * kLanes + x;
+            const COUNT* ring = rings + k * kLanes + x;
             std::uint16_t* count = counts + x;
-            for (int b = 0; b < part.present; ++b, disc += ofBin, count += kPart) {
-                const auto ring = ringOf(disc, k);
-                auto n = ring;
+            for (int b = 0; b < part.present; ++b, ring += ofBin, count += kPart) {
+                const auto r = ringOf(ring);
+                auto n = r;
                 if (k > 0) n = hn::Add(n, hn::Load(d16, count - part.present * kPart));
                 hn::Store(n, d16, count);
-                const auto pairs0 = hn::ZipLower(ring, n);
-                const auto pairs1 = hn::ZipUpper(D32(), ring, n);
-                change0 = hn::Add(change0, growth<COUNT>(pairs0, areas, rings, both));
-                change1 = hn::Add(change1, growth<COUNT>(pairs1, areas, rings, both));
+                const auto pairs0 = hn::ZipLower(r, n);
+                const auto pairs1 = hn::ZipUpper(D32(), r, n);
+                change0 = hn::Add(change0, growth<COUNT>(pairs0, areas, inRings, both));
+                change1 = hn::Add(change1, growth<COUNT>(pairs1, areas, inRings, both));
                 sum0 = logs.addTo(sum0, hn::BitCast(di, hn::ShiftRight<16>(pairs0)));
                 sum1 = logs.addTo(sum1, hn::BitCast(di, hn::ShiftRight<16>(pairs1)));
             }
@@ -264,9 +338,9 @@ HWY_INLINE void mark(VFloats before,
 }
 
 template <class COUNT>
-void search(const TScaleTables& tables, const COUNT* discs, TPart& part) {
+void search(const TScaleTables& tables, const COUNT* rings, TPart& part) {
     const DFloat d;
-    sumAll(tables, discs, part);
+    sumAll(tables, rings, part);
     const int scales = tables.scales();
     computeW(tables, 0, kPart, scales - 1, part);
     clearMarks(tables, part);
@@ -298,7 +372,7 @@ void search(const TScaleTables& tables, const COUNT* discs, TPart& part) {
 constexpr int kUnit = 32767;
 
 template <class COUNT>
-void boundChanges(const TScaleTables& tables, const COUNT* discs, TPart& part) {
+void boundChanges(const TScaleTables& tables, const COUNT* rings, TPart& part) {
     const D16 d;
     const int scales = tables.scales();
     const int ofBin = scales * kLanes;
@@ -316,15 +390,15 @@ void boundChanges(const TScaleTables& tables, const COUNT* discs, TPart& part) {
         std::uint16_t* const counts = part.counts.get() + k * part.present * kPart;
         for (int x = 0; x < kPart; x += kShorts) {
             auto bound = hn::Zero(d);
-            const COUNT* disc = discs + k * kLanes + x;
+            const COUNT* ring = rings + k * kLanes + x;
             std::uint16_t* count = counts + x;
-            for (int b = 0; b < part.present; ++b, disc += ofBin, count += kPart) {
-                const auto ring = ringOf(disc, k);
+            for (int b = 0; b < part.present; ++b, ring += ofBin, count += kPart) {
+                const auto r = ringOf(ring);
                 auto n = hn::Zero(d);
                 if (k > 0) n = hn::Load(d, count - part.present * kPart);
-                hn::Store(hn::Add(n, ring), d, count);
+                hn::Store(hn::Add(n, r), d, count);
                 const auto expected = hn::MulHigh(hn::ShiftLeftSame(n, shift), perShifted);
-                bound = hn::Add(bound, hn::SaturatedSub(hn::Mul(ring, perRing), expected));
+                bound = hn::Add(bound, hn::SaturatedSub(hn::Mul(r, perRing), expected));
             }
             hn::Store(bound, d, part.bound.get() + k * kPart + x);
         }
@@ -395,9 +469,9 @@ HWY_INLINE void computeChanges(const TScaleTables& tables, int x, int lastScale,
 }
 
 template <class COUNT>
-void searchAbove(const TScaleTables& tables, const COUNT* discs, double yMin, TPart& part) {
+void searchAbove(const TScaleTables& tables, const COUNT* rings, double yMin, TPart& part) {
     const DFloat d;
-    boundChanges(tables, discs, part);
+    boundChanges(tables, rings, part);
     boundW(tables, part);
     clearMarks(tables, part);
     for (int i = 0; i < kPart; ++i) part.place[i] = static_cast<std::uint8_t>(i);
@@ -430,7 +504,7 @@ void searchAbove(const TScaleTables& tables, const COUNT* discs, double yMin, TP
 
 template <class COUNT>
 TKernels<COUNT> kernels() {
-    return {discs<COUNT>, search<COUNT>, searchAbove<COUNT>};
+    return {fill, count<COUNT>, search<COUNT>, searchAbove<COUNT>};
 }
 
 }  // namespace HWY_NAMESPACE

@@ -4,6 +4,7 @@
 #include <hwy/aligned_allocator.h>
 
 #include <array>
+#include <opencv2/core/mat.hpp>
 
 #include "TScaleTables.h"
 
@@ -11,15 +12,6 @@ namespace salma::saliency {
 
 constexpr int kPart = 32;    // centres searched together, so that their counts fit into a cache
 constexpr int kInWord = 32;  // scales whose marks share a word
-
-/** Prefix sums of one bin's indicator over a tile, all modulo the range of COUNT; three arrays of
- * rows `stride` apart. Entry (r, c) sums over pixels before it: */
-template <class COUNT>
-struct TPlanes {
-    const COUNT* alongRow{nullptr};     //!< of row r, columns < c;
-    const COUNT* alongColumn{nullptr};  //!< of column c, rows < r;
-    const COUNT* square{nullptr};       //!< rows < r and columns < c.
-};
 
 /// What is known of kPart centres of a row. Places are those of the centres in another order.
 struct TPart {
@@ -45,22 +37,31 @@ struct TPart {
  * the same peaks; floats only say what needs no closer look. */
 template <class COUNT>
 struct TKernels {
-    /** How many pixels of a bin lie in disc(s), s = sMin..sMax, modulo the range of COUNT, for
-     * kLanes centres in tile row `row`, of which the first is in column plan.origin.
-     * \param scratch [plan.scratchSize] \param out [scales x kLanes] */
-    void (*discs)(const TScaleTables& tables,
-                  const TPlanes<COUNT>& planes,
-                  int row,
-                  COUNT* scratch,
+    /** Writes the bitmap of one bin.
+     * \param bins First pixel of the window; the window has [height x width] pixels, height at
+     * most kTileRows + 2 reach, width at most kLanes + 2 reach.
+     * \param inRow [height] whether the bin occurs in a row. */
+    void (*fill)(const TBitmapLayout& layout,
+                 const cv::Mat& window,
+                 std::uint8_t bin,
+                 std::uint64_t* bitmap,
+                 std::uint8_t* inRow){nullptr};
+
+    /** How many pixels of a bin lie in each ring about the kLanes centres of kBandRows rows.
+     * \param bitmap Word of offset (-reach, -reach) from the first row of the band.
+     * \param out [row][scale][lane], rows `stride` apart. */
+    void (*count)(const TScaleTables& tables,
+                  const std::uint64_t* bitmap,
+                  std::size_t stride,
                   COUNT* out){nullptr};
 
     /** Marks the peaks of a part's entropies, and computes its W.
-     * \param discs Result of `discs` for the part's first centre, [present][scale] rows of kLanes */
-    void (*search)(const TScaleTables& tables, const COUNT* discs, TPart& part){nullptr};
+     * \param rings Result of `count` for the part's first centre, [present][scale][lane]. */
+    void (*search)(const TScaleTables& tables, const COUNT* rings, TPart& part){nullptr};
 
     /// As `search`, but leaves out what cannot be a peak with Y >= yMin.
     void (*searchAbove)(const TScaleTables& tables,
-                        const COUNT* discs,
+                        const COUNT* rings,
                         double yMin,
                         TPart& part){nullptr};
 };
