@@ -39,6 +39,7 @@ std::optional<viz::TTrajectory> truthOf(const std::string& rawlog) {
 void setMethod(const std::string& name, association::TAssociationOptions& options) {
     if (name == "nn") options.method = association::EMethod::nn;
     if (name == "scnn") options.method = association::EMethod::scnn;
+    if (name == "jcbb") options.method = association::EMethod::jcbb;
     if (name == "saliency") options.method = association::EMethod::saliency;
 }
 

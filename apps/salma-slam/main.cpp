@@ -15,8 +15,8 @@ int main(int argc, char** argv) {
     app.add_option_function<std::string>(
            "--backend", [](const std::string&) {}, "ekf")
         ->check(CLI::IsMember({"ekf"}));
-    app.add_option("--association", arguments.association, "nn, scnn or saliency")
-        ->check(CLI::IsMember({"nn", "scnn", "saliency"}));
+    app.add_option("--association", arguments.association, "nn, scnn, jcbb or saliency")
+        ->check(CLI::IsMember({"nn", "scnn", "jcbb", "saliency"}));
     app.add_option("--seed", arguments.seed, "seed of all random steps")
         ->check(CLI::NonNegativeNumber);
     app.add_flag("--ignore-ids", arguments.ignoreIdentities, "identities in the log are not read");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <salma/association/CDataAssociator.h>
+#include <salma/association/CJointCompatibility.h>
 #include <salma/association/CNearestNeighbour.h>
 #include <salma/association/CSaliencyAssociation.h>
 #include <salma/association/CSequentialCompatibility.h>
@@ -24,6 +25,8 @@ std::unique_ptr<CDataAssociator> createAssociator(const TAssociationOptions& opt
             return std::make_unique<CNearestNeighbour>(options);
         case EMethod::scnn:
             return std::make_unique<CSequentialCompatibility>(options);
+        case EMethod::jcbb:
+            return std::make_unique<CJointCompatibility>(options);
         default:
             return std::make_unique<CSaliencyAssociation>(options);
     }

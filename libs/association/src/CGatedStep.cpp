@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CGatedStep.h"
 
-#include <mrpt/math/distributions.h>
 #include <mrpt/math/wrap2pi.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <stdexcept>
+#include <tuple>
+
+#include "CChiSquareGate.h"
 
 namespace salma::association {
 namespace {
@@ -35,8 +38,8 @@ void check(const TAssociationProblem& problem) {
 CGatedStep::CGatedStep(const TAssociationOptions& options, const TAssociationProblem& problem)
     : m_options(options),
       m_problem(problem),
-      m_gate(mrpt::math::chi2inv(options.gateQuantile, 2)),
-      m_wallGate2(mrpt::math::chi2inv(options.wallAngleQuantile, 1)),
+      m_gate(chiSquareQuantile(options.gateQuantile, 2)),
+      m_wallGate2(chiSquareQuantile(options.wallAngleQuantile, 1)),
       m_joint(problem),
       m_pairs(problem.measurements.size()),
       m_open(problem.measurements.size(), true),
@@ -44,9 +47,9 @@ CGatedStep::CGatedStep(const TAssociationOptions& options, const TAssociationPro
     check(problem);
     m_result.decisions.resize(problem.measurements.size());
     rejectClutter();
+    refuseExcess();
     pairIdentities();
     m_identityDistance2 = m_joint.distance2();
-    m_identityPairings = m_joint.pairings();
     for (std::size_t i = 0; i < problem.measurements.size(); ++i)
         if (m_open[i]) gate(i);
 }
@@ -64,6 +67,22 @@ void CGatedStep::rejectClutter() {
     }
 }
 
+void CGatedStep::refuseExcess() {
+    const auto limit = static_cast<std::size_t>(m_options.maxMeasurements);
+    if (openCount() <= limit) return;
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < m_open.size(); ++i)
+        if (m_open[i]) order.push_back(i);
+    std::sort(order.begin(), order.end(), [this](std::size_t a, std::size_t b) {
+        const TMeasurement& first = m_problem.measurements[a];
+        const TMeasurement& second = m_problem.measurements[b];
+        return std::make_tuple(!first.identity, first.z[0], first.z[1], a) <
+               std::make_tuple(!second.identity, second.z[0], second.z[1], b);
+    });
+    for (std::size_t k = limit; k < order.size(); ++k)
+        decide(order[k], EVerdict::deferred, EReason::tooMany);
+}
+
 void CGatedStep::pairIdentities() {
     for (std::size_t i = 0; i < m_problem.measurements.size(); ++i) {
         const auto& identity = m_problem.measurements[i].identity;
@@ -77,7 +96,8 @@ void CGatedStep::pairIdentities() {
                 known.distance2 = test->distance2;
                 known.inGate = known.distance2 <= m_gate;
                 m_pairs[i] = {known};
-                pair(i, known, EReason::identity);
+                pair(i, j, EReason::identity);
+                m_identities.push_back({i, j});
             } else {
                 ++m_result.dropped.singular;
                 decide(i, EVerdict::clutter, EReason::badCovariance);
@@ -127,9 +147,9 @@ void CGatedStep::gate(std::size_t observation) {
 }
 
 bool CGatedStep::passesJointGate(const TConditionalInnovation& more) const {
-    const auto pairings = static_cast<unsigned>(m_joint.pairings() - m_identityPairings + 1);
+    const auto pairings = static_cast<unsigned>(m_joint.pairings() - m_identities.size() + 1);
     const double total = m_joint.distance2() - m_identityDistance2 + more.distance2;
-    return total <= mrpt::math::chi2inv(m_options.jointQuantile, 2 * pairings);
+    return total <= chiSquareQuantile(m_options.jointQuantile, 2 * pairings);
 }
 
 void CGatedStep::weighAppearance() {
@@ -150,14 +170,40 @@ void CGatedStep::decide(std::size_t observation, EVerdict verdict, EReason reaso
     m_result.decisions[observation].reason = reason;
 }
 
-void CGatedStep::pair(std::size_t observation, const TPair& pair, EReason reason) {
-    m_joint.add(observation, pair.landmark);
-    m_taken[pair.landmark] = true;
+std::size_t CGatedStep::openCount() const {
+    return static_cast<std::size_t>(std::count(m_open.begin(), m_open.end(), true));
+}
+
+std::vector<TBranch> CGatedStep::branches() const {
+    std::vector<TBranch> result;
+    for (std::size_t i = 0; i < m_pairs.size(); ++i)
+        for (const TPair& pair : m_pairs[i])
+            if (m_open[i] && pair.inGate && !pair.forbidden) result.push_back({i, pair.landmark});
+    return result;
+}
+
+void CGatedStep::pair(std::size_t observation, std::size_t landmark, EReason reason) {
+    const auto pair = std::find_if(m_pairs[observation].begin(), m_pairs[observation].end(),
+                                   [&](const TPair& p) { return p.landmark == landmark; });
+    m_joint.add(observation, landmark);
+    m_taken[landmark] = true;
     decide(observation, EVerdict::paired, reason);
     TDecision& decision = m_result.decisions[observation];
-    decision.landmark = static_cast<int>(pair.landmark);
-    decision.distance2 = pair.distance2;
-    decision.logRatio = pair.logRatio;
+    decision.landmark = static_cast<int>(landmark);
+    decision.distance2 = pair->distance2;
+    decision.logRatio = pair->logRatio;
+    ++m_result.pairings;
+    if (!std::isnan(pair->logRatio)) m_result.logRatio += pair->logRatio;
+}
+
+EReason CGatedStep::whyUnpaired(std::size_t observation) {
+    bool impossible = false;
+    for (const TPair& pair : m_pairs[observation]) {
+        if (!pair.inGate || pair.forbidden || m_taken[pair.landmark]) continue;
+        impossible = true;
+        ++m_result.dropped.joint;
+    }
+    return impossible ? EReason::jointlyImpossible : EReason::taken;
 }
 
 bool CGatedStep::isNear(std::size_t observation, const TPair& pair, bool givenPairings) const {
@@ -182,7 +228,8 @@ void CGatedStep::settle(std::size_t observation, EReason reason, bool givenPairi
                                                             : EReason::unexplained);
 }
 
-TAssociation CGatedStep::finish() {
+TAssociation CGatedStep::finish(const TSearchCounts& search) {
+    m_result.search = search;
     for (std::size_t i = 0; i < m_pairs.size(); ++i) {
         TDecision& decision = m_result.decisions[i];
         for (const TPair& pair : m_pairs[i]) {

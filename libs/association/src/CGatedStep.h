@@ -6,6 +6,8 @@
 
 #include <vector>
 
+#include "CInterpretationTree.h"
+
 namespace salma::association {
 
 /// A landmark that a measurement could show.
@@ -31,6 +33,10 @@ class CGatedStep {
     const std::vector<TPair>& pairs(std::size_t observation) const { return m_pairs[observation]; }
     bool isOpen(std::size_t observation) const { return m_open[observation]; }
     bool isTaken(std::size_t landmark) const { return m_taken[landmark]; }
+    std::size_t openCount() const;
+    /// Pairs inside the gate that no test forbids, of all open measurements, sorted.
+    std::vector<TBranch> branches() const;
+    const std::vector<TBranch>& identityPairings() const { return m_identities; }
     const CJointInnovation& joint() const { return m_joint; }
     /// True if the joint gate holds with one more pairing. Pairings by identity are taken for
     /// granted: the others are judged given them.
@@ -40,17 +46,22 @@ class CGatedStep {
     /// Asks the appearance of every pair that has one and marks what it forbids.
     void weighAppearance();
 
-    void pair(std::size_t observation, const TPair& pair, EReason reason);
+    /// `landmark` must be one of the measurement's pairs.
+    void pair(std::size_t observation, std::size_t landmark, EReason reason);
+
+    /// For an open measurement that no method wants to pair any more; counts what failed jointly.
+    EReason whyUnpaired(std::size_t observation);
 
     /** Makes an open measurement a new landmark if it is clear of all that it could be, else defers
      * it for `reason`. \param givenPairings Distances are judged given the pairings made. */
     void settle(std::size_t observation, EReason reason, bool givenPairings);
 
     /// Call once, when every measurement is decided.
-    TAssociation finish();
+    TAssociation finish(const TSearchCounts& search = {});
 
  private:
     void rejectClutter();
+    void refuseExcess();
     void pairIdentities();
     void gate(std::size_t observation);
     bool compatible(const TMeasurement& measurement, const TPredictedLandmark& landmark);
@@ -63,7 +74,7 @@ class CGatedStep {
     double m_wallGate2;  //!< chi2 with 1 degree of freedom
     CJointInnovation m_joint;
     double m_identityDistance2{0};  //!< Share of the pairings by identity in the joint distance.
-    std::size_t m_identityPairings{0};
+    std::vector<TBranch> m_identities;
     TAssociation m_result;
     std::vector<std::vector<TPair>> m_pairs;
     std::vector<bool> m_open;

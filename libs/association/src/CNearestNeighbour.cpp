@@ -14,7 +14,7 @@ TAssociation CNearestNeighbour::associate(const TAssociationProblem& problem) co
     const std::size_t count = problem.measurements.size();
     for (const TGatedPair& near : nearestPairs(step, count))
         if (step.isOpen(near.observation) && !step.isTaken(near.pair.landmark))
-            step.pair(near.observation, near.pair, EReason::nearest);
+            step.pair(near.observation, near.pair.landmark, EReason::nearest);
     for (std::size_t i = 0; i < count; ++i)
         if (step.isOpen(i)) step.settle(i, EReason::taken, false);
     return step.finish();

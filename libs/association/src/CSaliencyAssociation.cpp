@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <mrpt/math/distributions.h>
 #include <salma/association/CSaliencyAssociation.h>
 
 #include <cmath>
 #include <limits>
 #include <optional>
 
+#include "CChiSquareGate.h"
 #include "CGatedStep.h"
 
 namespace salma::association {
@@ -35,7 +35,7 @@ class CBestFirst {
                const std::vector<TMeasurement>& measurements)
         : m_options(options),
           m_step(step),
-          m_gate(mrpt::math::chi2inv(options.gateQuantile, 2)),
+          m_gate(chiSquareQuantile(options.gateQuantile, 2)),
           m_measurements(measurements),
           m_scores(measurements.size()) {}
 
@@ -48,7 +48,6 @@ class CBestFirst {
     TBest best(std::size_t observation) const;
     /// Why the best landmark of a measurement must not be paired; nothing if it may.
     std::optional<EReason> objection(const TBest& candidate) const;
-    EReason whyNotScored(std::size_t observation);
     /// Score of the explanation that a measurement shows a landmark which is not in the map.
     double otherScore(std::size_t observation) const {
         return m_measurements[observation].kind == ELandmarkKind::corner
@@ -114,16 +113,6 @@ std::optional<EReason> CBestFirst::objection(const TBest& candidate) const {
     return {};
 }
 
-EReason CBestFirst::whyNotScored(std::size_t observation) {
-    bool impossible = false;
-    for (const TPair& pair : m_step.pairs(observation)) {
-        if (!pair.inGate || pair.forbidden || m_step.isTaken(pair.landmark)) continue;
-        impossible = true;
-        ++m_step.dropped().joint;
-    }
-    return impossible ? EReason::jointlyImpossible : EReason::taken;
-}
-
 void CBestFirst::run() {
     while (true) {
         score();
@@ -136,12 +125,12 @@ void CBestFirst::run() {
                 chosen = candidate;
         }
         if (!chosen) break;
-        m_step.pair(chosen->observation, *chosen->best.pair, EReason::nearest);
+        m_step.pair(chosen->observation, chosen->best.pair->landmark, EReason::nearest);
     }
     for (std::size_t i = 0; i < m_scores.size(); ++i) {
         if (!m_step.isOpen(i)) continue;
         const TBest candidate = best(i);
-        m_step.settle(i, candidate.best.pair ? *objection(candidate) : whyNotScored(i), true);
+        m_step.settle(i, candidate.best.pair ? *objection(candidate) : m_step.whyUnpaired(i), true);
     }
 }
 

@@ -40,7 +40,7 @@ TAssociation CSequentialCompatibility::associate(const TAssociationProblem& prob
             continue;
         const auto test = step.joint().test(near.observation, near.pair.landmark);
         if (test && step.passesJointGate(*test)) {
-            step.pair(near.observation, near.pair, EReason::nearest);
+            step.pair(near.observation, near.pair.landmark, EReason::nearest);
         } else {
             failed[near.observation] = true;
             ++step.dropped().joint;

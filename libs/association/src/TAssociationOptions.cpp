@@ -7,12 +7,15 @@ namespace salma::association {
 
 void TAssociationOptions::visit(config::COptionVisitor& v) {
     v.choice("method", method,
-             {{"nn", EMethod::nn}, {"scnn", EMethod::scnn}, {"saliency", EMethod::saliency}},
-             "nearest neighbour, sequential compatibility, or geometry and appearance together");
+             {{"nn", EMethod::nn},
+              {"scnn", EMethod::scnn},
+              {"jcbb", EMethod::jcbb},
+              {"saliency", EMethod::saliency}},
+             "nearest neighbour, sequential or joint compatibility, or with appearance");
     v.number("gate_quantile", gateQuantile, config::insideOf(0, 1),
              "probability that a true pairing passes the individual gate");
     v.number("joint_quantile", jointQuantile, config::insideOf(0, 1),
-             "the same for all pairings of a step together (scnn, saliency)");
+             "the same for all pairings of a step together (all but nn)");
     v.number("new_distance2", newDistance2, config::atLeast(0),
              "squared Mahalanobis distance of a new landmark from all others");
     v.number("wall_angle_quantile", wallAngleQuantile, config::insideOf(0, 1),
@@ -27,9 +30,15 @@ void TAssociationOptions::visit(config::COptionVisitor& v) {
              "log density of corners not in the map, per metre and radian (saliency)");
     v.number("salient_log_density", salientLogDensity, config::anyNumber(),
              "the same for salient landmarks (saliency)");
+    v.integer("search_limit", searchLimit, config::atLeast(1),
+              "tests of joint compatibility in a step before random starts take over (jcbb)");
+    v.integer("seed", seed, config::atLeast(0), "of the random starts (jcbb)");
+    v.integer("max_measurements", maxMeasurements, config::atLeast(1),
+              "measurements of a step that are looked at, the nearest ones");
 }
 
 void TAssociationOptions::validate() const {
+    checkRanges();
     if (!(forbidLogLr < acceptLogLr))
         throw std::invalid_argument(
             "forbid_log_lr = " + std::to_string(forbidLogLr) +

@@ -91,14 +91,14 @@ TEST_P(CDataAssociatorTest, KeepsKindsAndConvexityApart) {
 
 TEST_P(CDataAssociatorTest, ComparesTheAnglesOfTheWalls) {
     // Sigma of the difference = hypot(0.06, 0.08) = 0.1; 99 % of one degree of freedom:
-    // 2.576, by MRPT's approximation 2.566.
+    // 2.5758.
     auto problem = test::problem({test::poster(2, 0)}, {{2, 0}}, ELandmarkKind::salient);
     problem.measurements[0].wallAngle = M_PI;
     problem.measurements[0].wallAngleSigma = 0.06;
     problem.landmarks[0].wallAngleSigma = 0.08;
-    problem.landmarks[0].wallAngle = -M_PI + 0.256;
+    problem.landmarks[0].wallAngle = -M_PI + 0.2575;
     EXPECT_EQ(associate(problem).decisions[0].verdict, EVerdict::paired);
-    problem.landmarks[0].wallAngle = -M_PI + 0.258;
+    problem.landmarks[0].wallAngle = -M_PI + 0.2577;
     const auto turned = associate(problem);
     EXPECT_EQ(turned.decisions[0].verdict, EVerdict::created);
     EXPECT_EQ(turned.dropped.wallAngle, 1u);
@@ -175,6 +175,62 @@ TEST_P(CDataAssociatorTest, RefusesACovarianceOfTheWrongSizeOrNotFinite) {
     EXPECT_THROW(associate(problem), std::invalid_argument);
 }
 
+TEST_P(CDataAssociatorTest, TakesForClutterWhatStatesNoCovariance) {
+    auto problem = test::problem({test::seen(2, 0)}, {{2, 0}});
+    problem.measurements[0].R.setZero();
+    EXPECT_EQ(associate(problem).decisions[0].reason, EReason::badCovariance);
+    problem.measurements[0].R.setConstant(std::numeric_limits<double>::quiet_NaN());
+    EXPECT_EQ(associate(problem).decisions[0].reason, EReason::notFinite);
+}
+
+TEST_P(CDataAssociatorTest, RefusesAPredictionThatIsNotFinite) {
+    auto problem = test::problem({test::seen(2, 0)}, {{2, 0}});
+    problem.landmarks[0].z[1] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(associate(problem), std::invalid_argument);
+}
+
+TEST_P(CDataAssociatorTest, LooksAtTheNearestOfThousandsOfMeasurementsAndCountsTheOthers) {
+    // Every fifth measurement shows a landmark, 400 landmarks in all; the rest is noise.
+    std::mt19937 random(4);
+    std::uniform_real_distribution<double> range(1, 20);
+    std::uniform_real_distribution<double> bearing(-M_PI, M_PI);
+    std::vector<Eigen::Vector2d> landmarks;
+    std::vector<TMeasurement> measurements;
+    for (int i = 0; i < 5000; ++i) {
+        const Eigen::Vector2d z(range(random), bearing(random));
+        if (i % 5 == 0 && landmarks.size() < 400) landmarks.push_back(z);
+        measurements.push_back(test::seen(z[0], z[1], 0.02));
+    }
+    auto problem = test::problem(measurements, landmarks);
+    test::addCommonError(problem, 0.1, 0.05);
+    const auto result = associate(problem);
+    ASSERT_EQ(result.decisions.size(), 5000u);
+    std::size_t refused = 0;
+    double farthest = 0, nearestRefused = 20;
+    for (std::size_t i = 0; i < 5000; ++i) {
+        const bool tooMany = result.decisions[i].reason == EReason::tooMany;
+        refused += tooMany;
+        double& edge = tooMany ? nearestRefused : farthest;
+        edge =
+            tooMany ? std::min(edge, measurements[i].z[0]) : std::max(edge, measurements[i].z[0]);
+        if (tooMany) {
+            EXPECT_EQ(result.decisions[i].verdict, EVerdict::deferred);
+        }
+    }
+    EXPECT_EQ(refused, 4800u);
+    EXPECT_LE(farthest, nearestRefused);
+    EXPECT_TRUE(std::isfinite(result.jointDistance2));
+}
+
+TEST_P(CDataAssociatorTest, SumsUpItsPairings) {
+    std::mt19937 random(5);
+    const auto result = associate(test::randomProblem(random));
+    const auto isPaired = [](const TDecision& d) { return d.verdict == EVerdict::paired; };
+    EXPECT_EQ(result.pairings, static_cast<std::size_t>(std::count_if(
+                                   result.decisions.begin(), result.decisions.end(), isPaired)));
+    EXPECT_TRUE(result.search.complete);
+}
+
 TEST_P(CDataAssociatorTest, DoesNotDependOnTheOrderOfMeasurementsAndLandmarks) {
     std::mt19937 random(2);
     for (int trial = 0; trial < 50; ++trial) {
@@ -218,7 +274,7 @@ TEST_P(CDataAssociatorTest, PairsOneToOneAndMarksTheChosenCandidates) {
             if (decision.verdict != EVerdict::paired) continue;
             ++paired;
             EXPECT_TRUE(used.insert(decision.landmark).second);
-            EXPECT_LE(decision.distance2, 9.23);  // 9.21, MRPT's approximation 9.2205
+            EXPECT_LE(decision.distance2, 9.2104);
         }
         for (const TCandidate& candidate : result.candidates) chosen += candidate.chosen;
         EXPECT_EQ(chosen, used.size());
@@ -227,19 +283,27 @@ TEST_P(CDataAssociatorTest, PairsOneToOneAndMarksTheChosenCandidates) {
 }
 
 std::string nameOf(const ::testing::TestParamInfo<EMethod>& method) {
-    return std::vector<std::string>{"nn", "scnn", "saliency"}[static_cast<int>(method.param)];
+    return std::vector<std::string>{"nn", "scnn", "jcbb",
+                                    "saliency"}[static_cast<int>(method.param)];
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods,
-                         CDataAssociatorTest,
-                         ::testing::Values(EMethod::nn, EMethod::scnn, EMethod::saliency),
-                         nameOf);
+INSTANTIATE_TEST_SUITE_P(
+    Methods,
+    CDataAssociatorTest,
+    ::testing::Values(EMethod::nn, EMethod::scnn, EMethod::jcbb, EMethod::saliency),
+    nameOf);
 
 TEST(TAssociationOptions, RefusesAMethodThatDoesNotExist) {
-    const mrpt::config::CConfigFileMemory file(std::string("[association]\nmethod = jcbb\n"));
+    const mrpt::config::CConfigFileMemory file(std::string("[association]\nmethod = icp\n"));
     TAssociationOptions options;
     EXPECT_THROW(options.loadFromConfigFile(file, "association"), std::invalid_argument);
     EXPECT_EQ(options.method, EMethod::saliency);
+}
+
+TEST(TAssociationOptions, RefusesASearchWithoutTests) {
+    TAssociationOptions options;
+    options.searchLimit = 0;
+    EXPECT_THROW(createAssociator(options), std::invalid_argument);
 }
 
 TEST(TAssociationOptions, RefusesThresholdsInTheWrongOrder) {

@@ -4,6 +4,8 @@
 #include <salma/association/CDataAssociator.h>
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <random>
 #include <utility>
 
@@ -62,6 +64,36 @@ inline TAssociationProblem randomProblem(std::mt19937& random) {
         result.measurements.push_back(seen(landmarks[i][0] + common[0] + 0.1 * unit(random),
                                            landmarks[i][1] + common[1] + 0.1 * unit(random)));
     result.measurements.push_back(seen(range(random), bearing(random)));
+    return result;
+}
+
+/// Up to five measurements and six landmarks so near to each other that many hypotheses are open.
+inline TAssociationProblem smallProblem(std::mt19937& random) {
+    std::uniform_real_distribution<double> range(2, 4);
+    std::uniform_real_distribution<double> bearing(M_PI - 0.4, M_PI + 0.4);  // across the half turn
+    std::normal_distribution<double> unit(0, 1);
+    std::vector<Eigen::Vector2d> landmarks(1 + random() % 6);
+    for (Eigen::Vector2d& z : landmarks) z = {range(random), bearing(random)};
+    TAssociationProblem result = problem({}, landmarks);
+    const double scale = 0.1 + 0.1 * static_cast<double>(random() % 4);
+    addCommonError(result, scale, scale);
+    // Errors of the landmarks themselves, correlated between neighbours in the list.
+    const auto size = result.predictionCovariance.rows();
+    Eigen::MatrixXd mixing = Eigen::MatrixXd::Zero(size, size);
+    for (Eigen::Index i = 0; i < size; ++i)
+        for (Eigen::Index j = std::max<Eigen::Index>(0, i - 3); j <= i; ++j)
+            mixing(i, j) = 0.05 * unit(random);
+    result.predictionCovariance += mixing * mixing.transpose();
+    const Eigen::Vector2d common(scale * unit(random), scale * unit(random));
+    const std::size_t seenCount = 1 + random() % 5;
+    for (std::size_t i = 0; i < seenCount; ++i) {
+        const Eigen::Vector2d z = i < landmarks.size()
+                                      ? Eigen::Vector2d(landmarks[i] + common)
+                                      : Eigen::Vector2d(range(random), bearing(random));
+        TMeasurement measurement = seen(z[0] + 0.1 * unit(random), z[1] + 0.1 * unit(random));
+        measurement.R(0, 1) = measurement.R(1, 0) = 0.005 * std::tanh(unit(random));
+        result.measurements.push_back(measurement);
+    }
     return result;
 }
 

@@ -107,6 +107,7 @@ TEST_F(KfSlamDemo, FindsEveryLandmarkOnceWhereIdentitiesAreIgnored) {
     association::TAssociationOptions association;
     for (const auto& [method, pathRms] : {std::pair(association::EMethod::nn, 0.0097),
                                           std::pair(association::EMethod::scnn, 0.0065),
+                                          std::pair(association::EMethod::jcbb, 0.0065),
                                           std::pair(association::EMethod::saliency, 0.0065)}) {
         association.method = method;
         const TOutcome outcome = run(ekf, association);

@@ -19,6 +19,7 @@ enum class EReason {
     ambiguous,          //!< Deferred: the second-best explanation is nearly as good.
     unsureAppearance,   //!< Deferred: the appearance neither proves nor excludes the candidate.
     improbable,         //!< Deferred: another landmark would explain it as well as the candidate.
+    tooMany,            //!< Deferred: the step has more measurements than are looked at.
     notFinite,          //!< Clutter: z or R is not finite.
     badCovariance,      //!< Clutter: R is not positive definite.
     repeatedIdentity,   //!< Clutter: a measurement before it in the step has the same identity.
@@ -57,11 +58,21 @@ struct TDropCounts {
     TDropCounts& operator+=(const TDropCounts& other);
 };
 
+/// What the search for the best hypothesis took; zero for methods that do not search.
+struct TSearchCounts {
+    std::size_t nodes{0};  //!< Hypotheses that were looked at.
+    std::size_t tests{0};  //!< Pairings that were judged given a hypothesis.
+    bool complete{true};   //!< False: the limit came first, so a better hypothesis may exist.
+};
+
 /// Outcome of one step.
 struct TAssociation {
     std::vector<TDecision> decisions;    //!< One per measurement; a landmark occurs at most once.
     std::vector<TCandidate> candidates;  //!< Sorted by observation, then landmark.
-    double jointDistance2{0};            //!< Of all pairings together; 2 degrees of freedom each.
+    std::size_t pairings{0};
+    double jointDistance2{0};  //!< Of all pairings together; 2 degrees of freedom each.
+    double logRatio{0};        //!< Sum over the pairings whose appearance was compared.
+    TSearchCounts search;
     TDropCounts dropped;
 };
 

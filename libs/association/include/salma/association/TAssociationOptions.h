@@ -5,7 +5,7 @@
 
 namespace salma::association {
 
-enum class EMethod { nn, scnn, saliency };
+enum class EMethod { nn, scnn, jcbb, saliency };
 
 /// Section [association] of config.ini.
 struct TAssociationOptions : public config::TStrictOptions<TAssociationOptions> {
@@ -21,6 +21,9 @@ struct TAssociationOptions : public config::TStrictOptions<TAssociationOptions> 
     /// pairing must reach them.
     double cornerLogDensity{2};
     double salientLogDensity{-3};
+    int searchLimit{50000};    //!< Tests of joint compatibility in one step (jcbb).
+    int seed{1};               //!< Of the random starts after that.
+    int maxMeasurements{200};  //!< Of a step; those farther away are deferred.
 
     void visit(config::COptionVisitor& v);
     /// \throw std::invalid_argument

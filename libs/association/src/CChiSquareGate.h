@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace salma::association {
+
+/// Quantile of the chi-square distribution. \param probability Between 0 and 1.
+double chiSquareQuantile(double probability, unsigned degreesOfFreedom);
+
+/// Largest joint squared Mahalanobis distance of a number of pairings, two degrees of freedom each.
+class CChiSquareGate {
+ public:
+    /// \param pairings The largest number that will be asked for.
+    CChiSquareGate(double probability, std::size_t pairings);
+
+    double operator()(std::size_t pairings) const { return m_limits[pairings]; }
+
+ private:
+    std::vector<double> m_limits;  //!< By the number of pairings; 0 for none.
+};
+
+}  // namespace salma::association
