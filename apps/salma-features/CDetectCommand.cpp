@@ -110,7 +110,7 @@ void CDetectCommand::run(std::ostream& out) {
 std::string CDetectCommand::findSalient(const cv::Mat& grey, const std::string& prefix) const {
     const int window = 2 * m_config.saliency.scaleMax + 1;
     const auto peaks = saliency::CScaleSaliency(m_config.saliency).detect(grey, m_yMin);
-    const auto clusters = saliency::CGreedyClusterer(m_config.clustering).cluster(peaks);
+    const auto clusters = saliency::createClusterer(m_config.clustering)->cluster(peaks);
     std::vector<saliency::TEllipse> discs;
     std::transform(clusters.regions.begin(), clusters.regions.end(), std::back_inserter(discs),
                    saliency::ellipseOf);

@@ -70,7 +70,7 @@ void TFrontEndOptions::validate() const {
 CFrontEnd::CFrontEnd(const TSeeingOptions& options)
     : m_options(options.frontEnd),
       m_saliency(options.saliency),
-      m_clusterer(options.clustering),
+      m_clusterer(saliency::createClusterer(options.clustering)),
       m_stable(options.mser),
       m_selector(options.selection),
       m_border(options.border),
@@ -87,7 +87,7 @@ TFrontEndResult CFrontEnd::process(const TView& view) const {
     for (const auto& line : view.walls) walls.emplace_back(view.camera, view.T_r_c, line);
 
     const auto peaks = m_saliency.detect(view.grey, m_selector.options().yMin);
-    const auto regions = m_clusterer.cluster(peaks).regions;
+    const auto regions = m_clusterer->cluster(peaks).regions;
     std::vector<std::vector<cv::Point>> stable;
     if (m_options.joinByMser && regions.size() > 1)
         for (auto& region : m_stable.detect(view.grey)) stable.push_back(std::move(region.pixels));
@@ -162,7 +162,7 @@ std::vector<TSalientRegion> CFrontEnd::secondLook(const TPatch& patch, const cv:
         cv::Rect(box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin) &
         cv::Rect({0, 0}, grey.size());
     auto regions =
-        m_clusterer.cluster(m_saliency.detect(grey(wide).clone(), m_options.secondYMin)).regions;
+        m_clusterer->cluster(m_saliency.detect(grey(wide).clone(), m_options.secondYMin)).regions;
     for (auto& region : regions) {
         region.x += wide.x;
         region.y += wide.y;

@@ -2,9 +2,11 @@
 #include <salma/saliency/CGreedyClusterer.h>
 
 #include <algorithm>
-#include <cmath>
-#include <stdexcept>
-#include <tuple>
+#include <functional>
+#include <iterator>
+
+#include "CPlaceGrid.h"
+#include "rankedPeaks.h"
 
 namespace salma::saliency {
 
@@ -12,89 +14,75 @@ using observations::TSalientRegion;
 
 namespace {
 
-bool moreSalient(const TSalientRegion& a, const TSalientRegion& b) {
-    return std::make_tuple(-a.Y, a.y, a.x, a.s) < std::make_tuple(-b.Y, b.y, b.x, b.s);
-}
-
 /** The discs kept so far, each entered in every cell of a grid that it may touch, so that a point
  * meets only the few discs of its own cell. */
-class CDiscGrid {
+class CDiscs {
  public:
-    /// Grid over the positions of `points`, which are not empty.
-    explicit CDiscGrid(const std::vector<TSalientRegion>& points) {
-        const auto [left, right] = std::minmax_element(
-            points.begin(), points.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
-        const auto [top, bottom] = std::minmax_element(
-            points.begin(), points.end(), [](const auto& a, const auto& b) { return a.y < b.y; });
-        m_left = left->x;
-        m_top = top->y;
-        const double extent = std::max(right->x - m_left, bottom->y - m_top);
-        m_cellSize = std::max(8.0, extent / 1000);  // at most a million cells
-        m_columns = cell(right->x - m_left) + 1;
-        m_rows = cell(bottom->y - m_top) + 1;
-        m_cells.resize(m_columns * m_rows);
-    }
+    explicit CDiscs(const TBox& box) : m_grid(box.left, box.top, box.right, box.bottom) {}
 
-    bool covers(double x, double y) const {
-        const auto& discs = m_cells[cell(y - m_top) * m_columns + cell(x - m_left)];
-        return std::any_of(discs.begin(), discs.end(), [x, y](const TSalientRegion& disc) {
-            const double dx = x - disc.x;
-            const double dy = y - disc.y;
+    bool cover(const TSalientRegion& point) const {
+        const auto& discs = m_grid.at(point.x, point.y);
+        return std::any_of(discs.begin(), discs.end(), [&point](const TSalientRegion& disc) {
+            const double dx = point.x - disc.x;
+            const double dy = point.y - disc.y;
             return dx * dx + dy * dy <= disc.s * disc.s;
         });
     }
 
     void insert(const TSalientRegion& disc) {
-        const std::size_t lastColumn = std::min(cell(disc.x + disc.s - m_left), m_columns - 1);
-        const std::size_t lastRow = std::min(cell(disc.y + disc.s - m_top), m_rows - 1);
-        for (std::size_t row = cell(disc.y - disc.s - m_top); row <= lastRow; ++row)
-            for (std::size_t column = cell(disc.x - disc.s - m_left); column <= lastColumn;
-                 ++column)
-                m_cells[row * m_columns + column].push_back(disc);
+        m_grid.visitAround(disc.x, disc.y, disc.s, [&disc](auto& cell) {
+            cell.push_back(disc);
+            return false;
+        });
     }
 
  private:
-    /// Index of the cell that holds `distance`, 0 for what is before the grid.
-    std::size_t cell(double distance) const {
-        return static_cast<std::size_t>(std::clamp(distance / m_cellSize, 0.0, 1e6));
-    }
-
-    double m_left{0};
-    double m_top{0};
-    double m_cellSize{1};
-    std::size_t m_columns{0};
-    std::size_t m_rows{0};
-    std::vector<std::vector<TSalientRegion>> m_cells;
+    CPlaceGrid<TSalientRegion> m_grid;
 };
 
-}  // namespace
-
-void TClusteringOptions::visit(config::COptionVisitor& v) {
-    v.number("w_min", wMin, config::atLeast(0), "inter-scale saliency that a peak must exceed");
+/// A value that about one in eight of the ranked exceed, from a sample of them; one reaches it.
+double upperEighth(const std::vector<TRankedPeak>& ranked) {
+    const std::size_t step = ranked.size() / 1024 + 1;
+    std::vector<double> sample;
+    for (std::size_t i = 0; i < ranked.size(); i += step) sample.push_back(ranked[i].Y);
+    const auto at = sample.begin() + static_cast<std::ptrdiff_t>(sample.size() / 8);
+    std::nth_element(sample.begin(), at, sample.end(), std::greater<>());
+    return *at;
 }
+
+}  // namespace
 
 CGreedyClusterer::CGreedyClusterer(const TClusteringOptions& options) : m_options(options) {
     m_options.validate();
 }
 
+/** Most peaks lie in the discs of a few. So the most salient part is sorted and taken first, then
+ * those of the rest that it left. */
 TClusteredRegions CGreedyClusterer::cluster(const std::vector<TSalientRegion>& peaks) const {
-    std::vector<TSalientRegion> sorted;
-    for (const auto& peak : peaks) {
-        if (!std::isfinite(peak.x + peak.y + peak.s + peak.Y))
-            throw std::invalid_argument("clustering: a peak's position, scale or Y is not finite");
-        if (peak.W > m_options.wMin) sorted.push_back(peak);
-    }
     TClusteredRegions result;
-    result.belowWMin = peaks.size() - sorted.size();
-    if (sorted.empty()) return result;
-    std::sort(sorted.begin(), sorted.end(), moreSalient);
-    CDiscGrid kept(sorted);
-    for (const auto& peak : sorted) {
-        if (kept.covers(peak.x, peak.y)) continue;
-        kept.insert(peak);
-        result.regions.push_back(peak);
+    auto rest = rankedPeaks(peaks, m_options.wMin);
+    const std::size_t strong = rest.size();
+    result.belowWMin = peaks.size() - strong;
+    if (rest.empty()) return result;
+    CDiscs kept(boxOf(rest, peaks));
+    const auto isCovered = [&](const TRankedPeak& r) { return kept.cover(peaks[r.index]); };
+    std::vector<TRankedPeak> first;
+    while (!rest.empty()) {
+        first.clear();
+        const double least = upperEighth(rest);
+        const auto isFirst = [least](const TRankedPeak& r) { return r.Y >= least; };
+        std::copy_if(rest.begin(), rest.end(), std::back_inserter(first), isFirst);
+        sortBySalience(first, peaks);
+        for (const auto& r : first) {
+            if (isCovered(r)) continue;
+            kept.insert(peaks[r.index]);
+            result.regions.push_back(peaks[r.index]);
+        }
+        rest.erase(std::remove_if(rest.begin(), rest.end(),
+                                  [&](const auto& r) { return isFirst(r) || isCovered(r); }),
+                   rest.end());
     }
-    result.insideStronger = sorted.size() - result.regions.size();
+    result.insideStronger = strong - result.regions.size();
     return result;
 }
 

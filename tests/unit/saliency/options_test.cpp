@@ -47,7 +47,9 @@ TEST(SaliencyOptions, RefuseValuesBeyondTheirRanges) {
         EXPECT_THROW(load<TScaleSaliencyOptions>(wrong), std::invalid_argument) << wrong;
     EXPECT_THROW(load<TScaleSaliencyOptions>("scale_min_px = 10\nscale_max_px = 11"),
                  std::invalid_argument);
-    EXPECT_THROW(load<TClusteringOptions>("w_min = -1"), std::invalid_argument);
+    for (const std::string wrong : {"w_min = -1", "method = best", "neighbours = 0",
+                                    "max_variance_px2 = -1", "max_variance_px2 = nan"})
+        EXPECT_THROW(load<TClusteringOptions>(wrong), std::invalid_argument) << wrong;
     for (const std::string wrong : {"delta = 0", "delta = 255", "min_area_px2 = 0",
                                     "max_area_fraction = 0", "min_diversity = nan"})
         EXPECT_THROW(load<TStableRegionsOptions>(wrong), std::invalid_argument) << wrong;
@@ -55,7 +57,10 @@ TEST(SaliencyOptions, RefuseValuesBeyondTheirRanges) {
 
 TEST(SaliencyOptions, ReadBackClusteringStableAndAffineRegions) {
     TClusteringOptions clustering;
+    clustering.method = EClustering::kadir;
     clustering.wMin = 0.75;
+    clustering.neighbours = 12;
+    clustering.maxVariance = 4.5;
     expectReadsWhatItWrites(clustering);
     TStableRegionsOptions mser;
     mser.delta = 3;

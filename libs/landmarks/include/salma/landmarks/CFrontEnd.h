@@ -7,11 +7,12 @@
 #include <salma/landmarks/CEntitySelector.h>
 #include <salma/laser/TLine.h>
 #include <salma/observations/CObservationSalientLandmarks.h>
-#include <salma/saliency/CGreedyClusterer.h>
+#include <salma/saliency/CClusterer.h>
 #include <salma/saliency/CScaleSaliency.h>
 #include <salma/saliency/CStableRegions.h>
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -86,7 +87,7 @@ class CFrontEnd {
 
     TFrontEndOptions m_options;
     saliency::CScaleSaliency m_saliency;
-    saliency::CGreedyClusterer m_clusterer;
+    std::shared_ptr<const saliency::CClusterer> m_clusterer;
     saliency::CStableRegions m_stable;
     CEntitySelector m_selector;
     CBorderFinder m_border;

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <salma/saliency/CKadirClusterer.h>
+
+#include <algorithm>
+
+#include "CNeighbourGrid.h"
+#include "CPlaceGrid.h"
+#include "rankedPeaks.h"
+
+namespace salma::saliency {
+
+using observations::TSalientRegion;
+
+namespace {
+
+double square(double value) { return value * value; }
+
+double distance2(const TPlaceAndScale& a, const TPlaceAndScale& b) {
+    return square(a[0] - b[0]) + square(a[1] - b[1]) + square(a[2] - b[2]);
+}
+
+/// Where a cluster lies.
+struct TCluster {
+    TPlaceAndScale mean{};
+    double variance{0};  // [px^2]
+};
+
+TCluster clusterOf(const std::vector<CNeighbourGrid::TNeighbour>& members,
+                   const std::vector<TPlaceAndScale>& points) {
+    TCluster cluster;
+    const auto n = static_cast<double>(members.size());
+    for (const auto& m : members)
+        for (std::size_t axis = 0; axis < 3; ++axis) cluster.mean[axis] += points[m.index][axis];
+    for (double& coordinate : cluster.mean) coordinate /= n;
+    for (const auto& m : members) cluster.variance += distance2(points[m.index], cluster.mean);
+    cluster.variance /= n;
+    return cluster;
+}
+
+/// The cluster of each point, whatever becomes of it.
+std::vector<TCluster> clustersOf(const std::vector<TPlaceAndScale>& points, std::size_t count) {
+    const CNeighbourGrid grid(points, count);
+    std::vector<TCluster> clusters(points.size());
+    std::vector<CNeighbourGrid::TNeighbour> members;
+    for (const std::size_t i : grid.byPlace()) {  // neighbours share what the processor has loaded
+        grid.nearest(points[i], members);
+        clusters[i] = clusterOf(members, points);
+    }
+    return clusters;
+}
+
+/// The regions so far.
+class CRegions {
+ public:
+    explicit CRegions(const TBox& box) : m_grid(box.left, box.top, box.right, box.bottom) {}
+
+    /// Whether one lies within the scale of this place, in (x, y, s).
+    bool nearOne(const TPlaceAndScale& place) {
+        const double limit = square(place[2]);
+        return m_grid.visitAround(place[0], place[1], place[2], [&](const auto& cell) {
+            return std::any_of(cell.begin(), cell.end(), [&](const TPlaceAndScale& region) {
+                return distance2(region, place) <= limit;
+            });
+        });
+    }
+
+    void insert(const TPlaceAndScale& place) { m_grid.at(place[0], place[1]).push_back(place); }
+
+ private:
+    CPlaceGrid<TPlaceAndScale> m_grid;
+};
+
+}  // namespace
+
+CKadirClusterer::CKadirClusterer(const TClusteringOptions& options) : m_options(options) {
+    m_options.validate();
+}
+
+TClusteredRegions CKadirClusterer::cluster(const std::vector<TSalientRegion>& peaks) const {
+    TClusteredRegions result;
+    auto ranked = rankedPeaks(peaks, m_options.wMin);
+    result.belowWMin = peaks.size() - ranked.size();
+    const auto count = static_cast<std::size_t>(m_options.neighbours);
+    if (ranked.size() < count) {
+        result.scattered = ranked.size();
+        return result;
+    }
+    sortBySalience(ranked, peaks);
+    std::vector<TPlaceAndScale> points;
+    points.reserve(ranked.size());
+    for (const auto& r : ranked) {
+        const TSalientRegion& peak = peaks[r.index];
+        points.push_back({peak.x, peak.y, peak.s});
+    }
+    const auto clusters = clustersOf(points, count);
+    CRegions kept(boxOf(ranked, peaks));
+    for (std::size_t i = 0; i < clusters.size(); ++i) {
+        const TCluster& cluster = clusters[i];
+        if (!(cluster.variance <= m_options.maxVariance)) {
+            ++result.scattered;
+        } else if (kept.nearOne(cluster.mean)) {
+            ++result.insideStronger;
+        } else {
+            kept.insert(cluster.mean);
+            const TSalientRegion& peak = peaks[ranked[i].index];
+            const auto& [x, y, s] = cluster.mean;
+            result.regions.push_back({x, y, s, peak.H, peak.W, peak.Y});
+        }
+    }
+    return result;
+}
+
+}  // namespace salma::saliency
