@@ -2,6 +2,7 @@
 #include "CSaliencyTile.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace salma::saliency {
 namespace {
@@ -18,7 +19,8 @@ CSaliencyTile<COUNT>::CSaliencyTile(const TScaleTables& tables, const TKernels<C
       m_scales(tables.scales()),
       m_ofBin(static_cast<std::size_t>(m_scales * kLanes)),
       m_bitmaps(static_cast<std::size_t>(tables.bins)),
-      m_inRow(static_cast<std::size_t>(tables.bins)),
+      m_perRow(static_cast<std::size_t>(tables.bins)),
+      m_overlap(hwy::AllocateAligned<std::uint16_t>(kBandRows * m_ofBin)),
       m_part(tables) {}
 
 template <class COUNT>
@@ -42,24 +44,24 @@ void CSaliencyTile<COUNT>::fillBitmaps(const cv::Mat& window) {
     }
     const auto size = static_cast<std::size_t>(m_tables.bitmap.size);
     for (std::size_t b = 0; b < m_bitmaps.size(); ++b) {
-        m_inRow[b].assign(static_cast<std::size_t>(window.rows), 0);
+        m_perRow[b].assign(static_cast<std::size_t>(window.rows), 0);
         if (!occurs[b]) continue;
         if (!m_bitmaps[b]) {
             m_bitmaps[b] = hwy::AllocateAligned<std::uint64_t>(size);
             std::fill_n(m_bitmaps[b].get(), size, 0);
         }
         m_kernels.fill(m_tables.bitmap, window, static_cast<std::uint8_t>(b), m_bitmaps[b].get(),
-                       m_inRow[b].data());
+                       m_perRow[b].data());
     }
 }
 
 template <class COUNT>
 void CSaliencyTile<COUNT>::findPresent(int row, int count) {
     m_present.clear();
-    for (std::size_t b = 0; b < m_inRow.size(); ++b) {
-        const auto first = m_inRow[b].begin() + row;
+    for (std::size_t b = 0; b < m_perRow.size(); ++b) {
+        const auto first = m_perRow[b].begin() + row;
         const auto last = first + (count + 2 * m_tables.sMax);
-        if (std::find(first, last, 1) != last) m_present.push_back(b);
+        if (std::any_of(first, last, [](int pixels) { return pixels > 0; })) m_present.push_back(b);
     }
 }
 
@@ -71,33 +73,81 @@ void CSaliencyTile<COUNT>::detectBand(const cv::Rect& centres, int row, TPeaks* 
         *std::max_element(m_tables.wMax.begin() + m_tables.sMin + 1, m_tables.wMax.end());
     const double hBound = m_tables.log(static_cast<double>(m_present.size()));
     if (m_present.size() < 2 || !(hBound * wBound >= m_yMin * kRounding)) return;
-    countBand(row);
+    const std::size_t size = kBandRows * m_present.size() * m_ofBin;
+    if (m_ringsSize < size) {
+        m_rings = hwy::AllocateAligned<COUNT>(size);
+        m_ringsSize = size;
+    }
     m_part.present = static_cast<int>(m_present.size());
+    if (m_yMin > 0)
+        countNeeded({centres.width, count}, row);
+    else
+        for (std::size_t i = 0; i < m_present.size(); ++i) countBin(i, row, m_scales);
     for (int r = 0; r < count; ++r)
         for (int x = 0; x < centres.width; x += kPart) {
+            if (m_yMin > 0 && m_lastScales[r][x / kPart] == 0) continue;
             searchPart(r, x);
             emitPeaks(centres.x + x, std::min(kPart, centres.width - x), rows[row + r]);
         }
 }
 
 template <class COUNT>
-void CSaliencyTile<COUNT>::countBand(int row) {
-    const std::size_t ofRow = m_present.size() * m_ofBin;
-    if (m_ringsSize < kBandRows * ofRow) {
-        m_rings = hwy::AllocateAligned<COUNT>(kBandRows * ofRow);
-        m_ringsSize = kBandRows * ofRow;
+void CSaliencyTile<COUNT>::countBin(std::size_t present, int row, int scales) {
+    m_kernels.count(m_tables, m_bitmaps[m_present[present]].get() + row, scales,
+                    m_present.size() * m_ofBin, m_rings.get() + present * m_ofBin);
+}
+
+/// W >= yMin / log(bins) means this D, smoothed; the 16-bit sums lose less than 4.
+template <class COUNT>
+std::vector<std::uint16_t> CSaliencyTile<COUNT>::leastChanges() const {
+    const double wLeast = m_yMin / m_tables.log(static_cast<double>(m_present.size()));
+    std::vector<std::uint16_t> least;
+    for (int k = 0; k < m_scales; ++k) {
+        const auto& bound = m_tables.bound[static_cast<std::size_t>(k)];
+        const double perW = m_tables.wFactor[static_cast<std::size_t>(m_tables.sMin + k)] * bound.dUnit;
+        const double d = k == 0 ? 0 : wLeast * kRounding / perW - 4;
+        least.push_back(static_cast<std::uint16_t>(std::clamp(d, 0.0, 65535.0)));
     }
-    for (std::size_t i = 0; i < m_present.size(); ++i)
-        m_kernels.count(m_tables, m_bitmaps[m_present[i]].get() + row, ofRow,
-                        m_rings.get() + i * m_ofBin);
+    return least;
+}
+
+template <class COUNT>
+void CSaliencyTile<COUNT>::countNeeded(const cv::Size& centres, int row) {
+    std::vector<std::pair<int, std::size_t>> order;  // fewer pixels later
+    for (std::size_t i = 0; i < m_present.size(); ++i) {
+        const auto first = m_perRow[m_present[i]].begin() + row;
+        order.emplace_back(-std::accumulate(first, first + centres.height + 2 * m_tables.sMax, 0), i);
+    }
+    std::sort(order.begin(), order.end());
+    const auto least = leastChanges();
+    const std::size_t ofRow = m_present.size() * m_ofBin;
+    std::fill_n(m_overlap.get(), kBandRows * m_ofBin, std::uint16_t{0});
+    int scales = m_scales;
+    for (std::size_t i = 0; i < order.size() && scales > 0; ++i) {
+        countBin(order[i].second, row, scales);
+        m_kernels.addOverlap(m_tables, m_rings.get() + order[i].second * m_ofBin, scales, ofRow,
+                             m_overlap.get());
+        if (i % 2 == 0 && i + 1 < order.size()) continue;
+        int last = 0;
+        for (int r = 0; r < centres.height; ++r)
+            for (int x = 0; x < centres.width; x += kPart) {
+                const auto* const overlap = m_overlap.get() + static_cast<std::size_t>(r) * m_ofBin + x;
+                m_lastScales[r][x / kPart] =
+                    m_kernels.lastScale(m_tables, overlap, scales,
+                                        std::min(kPart, centres.width - x), least.data());
+                last = std::max(last, m_lastScales[r][x / kPart]);
+            }
+        scales = last > 0 ? last + 2 : 0;
+    }
 }
 
 template <class COUNT>
 void CSaliencyTile<COUNT>::searchPart(int bandRow, int x) {
-    const std::size_t at = static_cast<std::size_t>(bandRow) * m_present.size() * m_ofBin;
-    const COUNT* const rings = m_rings.get() + at + x;
+    const auto r = static_cast<std::size_t>(bandRow);
+    const COUNT* const rings = m_rings.get() + r * m_present.size() * m_ofBin + x;
     if (m_yMin > 0)
-        m_kernels.searchAbove(m_tables, rings, m_yMin, m_part);
+        m_kernels.searchAbove(m_tables, rings, m_overlap.get() + r * m_ofBin + x,
+                              m_lastScales[bandRow][x / kPart], m_yMin, m_part);
     else
         m_kernels.search(m_tables, rings, m_part);
 }

@@ -36,8 +36,12 @@ class CSaliencyTile {
     /// Bins with a pixel in the discs of the centres of `count` rows from `row`.
     void findPresent(int row, int count);
     void detectBand(const cv::Rect& centres, int row, TPeaks* rows);
-    void countBand(int row);
-    /// Peaks of the centres x..x+kPart-1 of a row of the band, of which `count` exist.
+    /// Counts a bin in the band that begins with `row`, up to a number of scales.
+    void countBin(std::size_t present, int row, int scales);
+    /** Counts bins, the most frequent first, only as long and as far as there can be a peak.
+     * \return The last scale that can have one, for each row and part; 0 if none can. */
+    void countNeeded(const cv::Size& centres, int row);
+    std::vector<std::uint16_t> leastChanges() const;
     void searchPart(int bandRow, int x);
     void emitPeaks(int firstColumn, int count, TPeaks& found) const;
     bool isPeak(int k, int x) const;
@@ -50,10 +54,12 @@ class CSaliencyTile {
     std::size_t m_ofBin;  //!< Counts of a bin in a row of centres.
 
     std::vector<hwy::AlignedFreeUniquePtr<std::uint64_t[]>> m_bitmaps;  //!< Of each bin.
-    std::vector<std::vector<std::uint8_t>> m_inRow;  //!< [bin][row] whether it occurs there.
+    std::vector<std::vector<std::uint16_t>> m_perRow;  //!< [bin][row] pixels.
     std::vector<std::size_t> m_present;              //!< Bins, ascending.
     hwy::AlignedFreeUniquePtr<COUNT[]> m_rings;      //!< [band row][present][scale][lane]
     std::size_t m_ringsSize{0};
+    hwy::AlignedFreeUniquePtr<std::uint16_t[]> m_overlap;  //!< [band row][scale][lane]
+    int m_lastScales[kBandRows][kLanes / kPart]{};  //!< The last that can have a peak, or 0.
     TPart m_part;
 };
 

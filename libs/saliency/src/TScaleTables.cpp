@@ -31,6 +31,7 @@ TScaleTables::TScaleTables(const TScaleSaliencyOptions& options)
         nLogN[n] = x * log(x);
     }
     boundW();
+    scaleBounds();
     listRings();
 }
 
@@ -64,6 +65,32 @@ void TScaleTables::boundW() {
         wMax[s] = smoothed;
     }
     for (std::size_t s = 0; s < area.size(); ++s) wMax[s] *= wFactor[s];
+}
+
+void TScaleTables::scaleBounds() {
+    const auto perWhole = [this](int k) {  // D of a whole overlap
+        return 2.0 * inRing(k) / area[static_cast<std::size_t>(sMin + k)];
+    };
+    double largest = 0;
+    for (int k = 1; k < scales(); ++k) largest = std::max(largest, perWhole(k));
+    constexpr double kTop = 65000;  // toD of the largest; leaves room for whole < kWhole
+    bound.resize(static_cast<std::size_t>(scales()));
+    for (int k = 0; k < scales(); ++k) {
+        auto& b = bound[static_cast<std::size_t>(k)];
+        b.log2Area = static_cast<float>(std::log2(area[static_cast<std::size_t>(sMin + k)]));
+        if (k == 0) continue;
+        const int before = area[static_cast<std::size_t>(sMin + k - 1)];
+        const int perPixel = TBoundScale::kWhole / inRing(k);
+        const int whole = perPixel * inRing(k);
+        int toTop = 1;
+        while (before * toTop < 32768) toTop *= 2;
+        b.perPixel = static_cast<std::uint16_t>(perPixel);
+        b.whole = static_cast<std::uint16_t>(whole);
+        b.toTop = static_cast<std::uint16_t>(toTop);
+        b.perTop = static_cast<std::uint16_t>(65536.0 * whole / (before * toTop));
+        b.toD = static_cast<std::uint16_t>(kTop * perWhole(k) / largest * TBoundScale::kWhole / whole);
+        b.dUnit = 65536 / kTop * largest / TBoundScale::kWhole;
+    }
 }
 
 void TScaleTables::listRings() {

@@ -28,6 +28,20 @@ struct TBitmapLayout {
     std::int32_t offset(int dx, int dy) const { return (dx + reach) * stride + dy + reach; }
 };
 
+/** A scale's numbers for a bound of W in 16-bit arithmetic. With r of R ring pixels and n of the N
+ * pixels of the disc before in a bin, the histogram changes by D = 2 R / (N + R) (1 - overlap),
+ * overlap being the sum of min(r/R, n/N) over bins. */
+struct TBoundScale {
+    static constexpr int kWhole = 21845;  //!< A whole overlap; thrice that still is 16 bits.
+    std::uint16_t whole{0};       //!< R perPixel, a little less than kWhole.
+    std::uint16_t perPixel{0};    //!< Of the ring.
+    std::uint16_t toTop{0};       //!< Power of two that brings N to 2^15 or more.
+    std::uint16_t perTop{0};      //!< Of n toTop / 65536, rounded down.
+    std::uint16_t toD{0};         //!< Of (whole - overlap) / 65536, rounded down.
+    double dUnit{0};              //!< D of the result 1.
+    float log2Area{0};            //!< log2(N + R).
+};
+
 /// What depends on the options alone. Arrays are indexed by the radius s = 0..sMax [px].
 struct TScaleTables {
     explicit TScaleTables(const TScaleSaliencyOptions& options);
@@ -42,6 +56,7 @@ struct TScaleTables {
     std::vector<double> wFactor;  //!< s^2 / (2s - 1).
     std::vector<double> wMax;     //!< Largest W that any picture can have.
     double logTwo;                //!< log 2 in the chosen base.
+    std::vector<TBoundScale> bound;  //!< Of scales sMin..sMax.
     TBitmapLayout bitmap;
     /** Offsets of the pixels of ring(s) = {(s-1)^2 < i^2 + j^2 <= s^2}, for s = sMin..sMax, the
      * first being the whole disc; filled up to a multiple of kAtOnce with zeros of the bitmap. */
@@ -59,6 +74,7 @@ struct TScaleTables {
  private:
     void countDiscs();
     void boundW();
+    void scaleBounds();
     void listRings();
 };
 

@@ -61,7 +61,7 @@ void fill(const TBitmapLayout& layout,
           const cv::Mat& window,
           std::uint8_t bin,
           std::uint64_t* bitmap,
-          std::uint8_t* inRow) {
+          std::uint16_t* perRow) {
     const D64 d;
     const int words = 2 * layout.reach / 64 + 2;
     HWY_ALIGN std::uint64_t rows[kMaxWords * kBandRows] = {};  // [word][row]
@@ -69,12 +69,12 @@ void fill(const TBitmapLayout& layout,
     for (int y = 0; y < window.rows; y += kBandRows) {
         for (int r = 0; r < std::min(kBandRows, window.rows - y); ++r) {
             bitsOf(window.ptr<std::uint8_t>(y + r), window.cols, bin, row);
-            std::uint64_t any = 0;
+            std::size_t pixels = 0;
             for (int i = 0; i < words; ++i) {
                 rows[i * kBandRows + r] = row[i];
-                any |= row[i];
+                pixels += hwy::PopCount(row[i]);
             }
-            inRow[y + r] = any != 0 ? 1 : 0;
+            perRow[y + r] = static_cast<std::uint16_t>(pixels);
         }
         for (int r = 0; r < kBandRows; r += kWords)
             for (int shift = 0; shift <= 2 * layout.reach; ++shift) {
@@ -159,9 +159,10 @@ void countRing(const std::vector<std::int32_t>& ring,
 template <class COUNT>
 void count(const TScaleTables& tables,
            const std::uint64_t* bitmap,
+           int scales,
            std::size_t stride,
            COUNT* out) {
-    for (int k = 0; k < tables.scales(); ++k, out += kLanes) {
+    for (int k = 0; k < scales; ++k, out += kLanes) {
         const auto& ring = tables.rings[static_cast<std::size_t>(k)];
         const int most = tables.inRing(k);
         if (most < 64)
@@ -209,7 +210,7 @@ HWY_INLINE VInts growth(VWords pairs, VInts area, VInts ring, [[maybe_unused]] V
  * n; a polynomial adds what log2(m) has beyond m - 1. */
 class CLogs {
  public:
-    explicit CLogs(int area) : m_constant(hn::Set(d, kC[0] - 127 - static_cast<float>(std::log2(area)))) {}
+    explicit CLogs(float log2Area) : m_constant(hn::Set(d, kC[0] - 127 - log2Area)) {}
 
     HWY_INLINE VFloats addTo(VFloats sum, VInts n) const {
         const auto f = hn::ConvertTo(d, n);
@@ -248,7 +249,7 @@ void sumAll(const TScaleTables& tables, const COUNT* rings, TPart& part) {
         const auto areas = hn::Set(di, area);
         const auto inRings = hn::Set(di, inRing);
         const auto both = hn::Set(di, (area & 0xffff) | -inRing * 65536);
-        const CLogs logs(area);
+        const CLogs logs(tables.bound[static_cast<std::size_t>(k)].log2Area);
         std::uint16_t* const counts = part.counts.get() + k * part.present * kPart;
         for (int x = 0; x < kPart; x += kShorts) {
             auto change0 = hn::Zero(di);
@@ -368,68 +369,103 @@ void search(const TScaleTables& tables, const COUNT* rings, TPart& part) {
 
 // ---------------------------------------------------------------- searching above a threshold
 
-/// Counts of all scales, and bounds of their changes: at least sum max(0, r/R - n'/N') * kUnit.
-constexpr int kUnit = 32767;
+constexpr double kRoundedUp = 1 + 1e-5;  // more than what floats lose
 
 template <class COUNT>
-void boundChanges(const TScaleTables& tables, const COUNT* rings, TPart& part) {
+void addOverlap(const TScaleTables& tables,
+                const COUNT* rings,
+                int scales,
+                std::size_t stride,
+                std::uint16_t* overlap) {
     const D16 d;
-    const int scales = tables.scales();
-    const int ofBin = scales * kLanes;
-    for (int k = 0; k < scales; ++k) {
-        const auto s = static_cast<std::size_t>(tables.sMin + k);
-        const int before = k > 0 ? tables.area[s - 1] : 0;
-        const int inRing = tables.area[s] - before;
-        const int perPixel = kUnit / inRing;  // of the ring; of the disc before, rounded down:
-        int shift = 0;
-        while (before > 0 && before << (shift + 1) < 65536) ++shift;
-        const std::int64_t unit = static_cast<std::int64_t>(perPixel) * inRing * 65536;
-        const auto perShifted = hn::Set(
-            d, static_cast<std::uint16_t>(before > 0 ? unit / (static_cast<std::int64_t>(before) << shift) : 0));
-        const auto perRing = hn::Set(d, static_cast<std::uint16_t>(perPixel));
-        std::uint16_t* const counts = part.counts.get() + k * part.present * kPart;
-        for (int x = 0; x < kPart; x += kShorts) {
-            auto bound = hn::Zero(d);
-            const COUNT* ring = rings + k * kLanes + x;
-            std::uint16_t* count = counts + x;
-            for (int b = 0; b < part.present; ++b, ring += ofBin, count += kPart) {
-                const auto r = ringOf(ring);
-                auto n = hn::Zero(d);
-                if (k > 0) n = hn::Load(d, count - part.present * kPart);
-                hn::Store(hn::Add(n, r), d, count);
-                const auto expected = hn::MulHigh(hn::ShiftLeftSame(n, shift), perShifted);
-                bound = hn::Add(bound, hn::SaturatedSub(hn::Mul(r, perRing), expected));
+    for (int row = 0; row < kBandRows; ++row, rings += stride, overlap += tables.scales() * kLanes)
+        for (int x = 0; x < kLanes; x += kShorts) {
+            auto n = ringOf(rings + x);
+            for (int k = 1; k < scales; ++k) {
+                const auto& bound = tables.bound[static_cast<std::size_t>(k)];
+                const auto r = ringOf(rings + k * kLanes + x);
+                const auto inRing = hn::Mul(r, hn::Set(d, bound.perPixel));
+                const auto inDisc = hn::MulHigh(hn::Mul(n, hn::Set(d, bound.toTop)),
+                                                hn::Set(d, bound.perTop));
+                std::uint16_t* const sum = overlap + k * kLanes + x;
+                hn::Store(hn::Add(hn::Load(d, sum), hn::Min(inRing, inDisc)), d, sum);
+                n = hn::Add(n, r);
             }
-            hn::Store(bound, d, part.bound.get() + k * kPart + x);
         }
-    }
 }
 
-/// Bounds of W, in the order of centres.
-HWY_INLINE void boundW(const TScaleTables& tables, TPart& part) {
+int lastScale(const TScaleTables& tables,
+              const std::uint16_t* overlap,
+              int scales,
+              int count,
+              const std::uint16_t* atLeast) {
+    const D16 d;
+    const auto third = hn::Set(d, 65536 / 3);
+    auto last = hn::Zero(d);
+    for (int x = 0; x < count; x += kShorts) {
+        const auto dAt = [&](int k) {
+            const auto& bound = tables.bound[static_cast<std::size_t>(k)];
+            const auto rest = hn::Sub(hn::Set(d, bound.whole), hn::Load(d, overlap + k * kLanes + x));
+            return hn::MulHigh(rest, hn::Set(d, bound.toD));
+        };
+        auto now = dAt(1);
+        auto smoothed = now;
+        auto found = hn::Zero(d);
+        for (int k = 1; k + 1 < scales; ++k) {
+            const auto next = dAt(k + 1);
+            smoothed = tables.smooth ? hn::MulHigh(hn::Add(hn::Add(smoothed, now), next), third) : now;
+            now = next;
+            const auto high = hn::Eq(hn::Max(smoothed, hn::Set(d, atLeast[k])), smoothed);
+            found = hn::IfThenElse(high, hn::Set(d, static_cast<std::uint16_t>(k)), found);
+        }
+        const auto exist = hn::FirstN(d, static_cast<std::size_t>(std::min(kShorts, count - x)));
+        last = hn::Max(last, hn::IfThenElseZero(exist, found));
+    }
+    HWY_ALIGN std::uint16_t lanes[kShorts];
+    hn::Store(last, d, lanes);
+    return *std::max_element(lanes, lanes + kShorts);
+}
+
+/// Counts of scales 0..lastScale.
+template <class COUNT>
+void sumCounts(const TScaleTables& tables, const COUNT* rings, int lastScale, TPart& part) {
+    const D16 d;
+    for (int b = 0; b < part.present; ++b, rings += tables.scales() * kLanes)
+        for (int x = 0; x < kPart; x += kShorts) {
+            auto n = hn::Zero(d);
+            for (int k = 0; k <= lastScale; ++k) {
+                n = hn::Add(n, ringOf(rings + k * kLanes + x));
+                hn::Store(n, d, part.counts.get() + (k * part.present + b) * kPart + x);
+            }
+        }
+}
+
+/// Bounds of W up to lastScale, in the order of centres.
+HWY_INLINE void boundW(const TScaleTables& tables,
+                       const std::uint16_t* overlap,
+                       int lastScale,
+                       TPart& part) {
     const DFloat d;
     const DInt di;
     const hn::Rebind<std::uint16_t, DFloat> d16;
-    const int scales = tables.scales();
     for (int x = 0; x < kPart; x += kFloats) {
         const auto dAt = [&](int k) {
             const auto s = static_cast<std::size_t>(tables.sMin + k);
-            const int inRing = tables.area[s] - tables.area[s - 1];
-            // D is 2 R / N of the sum, whose unit is perPixel * R.
-            const double factor = 2.0 * inRing / tables.area[s] / (kUnit / inRing * inRing);
-            const auto bound = hn::Load(d16, part.bound.get() + k * kPart + x);
-            return hn::Mul(hn::ConvertTo(d, hn::PromoteTo(di, bound)),
+            const int whole = tables.bound[static_cast<std::size_t>(k)].whole;
+            const double factor = 2.0 * tables.inRing(k) / tables.area[s] / whole;
+            const auto same = hn::PromoteTo(di, hn::Load(d16, overlap + k * kLanes + x));
+            return hn::Mul(hn::ConvertTo(d, hn::Sub(hn::Set(di, whole), same)),
                            hn::Set(d, static_cast<float>(factor)));
         };
         auto now = dAt(1);
         auto smoothed = now;
-        for (int k = 1; k + 1 < scales; ++k) {
+        for (int k = 1; k <= lastScale; ++k) {
             const auto next = dAt(k + 1);
-            smoothed = tables.smooth ? hn::Mul(hn::Add(hn::Add(smoothed, now), next), hn::Set(d, 1.0F / 3.0F))
-                                     : now;
+            const auto sum = hn::Add(hn::Add(smoothed, now), next);
+            smoothed = tables.smooth ? hn::Mul(sum, hn::Set(d, 1.0F / 3.0F)) : now;
             now = next;
-            const double factor = tables.wFactor[static_cast<std::size_t>(tables.sMin + k)] * (1 + 1e-5);
-            hn::Store(hn::Mul(smoothed, hn::Set(d, static_cast<float>(factor))), d,
+            const double factor = tables.wFactor[static_cast<std::size_t>(tables.sMin + k)];
+            hn::Store(hn::Mul(smoothed, hn::Set(d, static_cast<float>(factor * kRoundedUp))), d,
                       part.wBound.get() + k * kPart + x);
         }
     }
@@ -440,7 +476,7 @@ HWY_INLINE VFloats entropyOf(const TScaleTables& tables, const TPart& part, int 
     const DInt di;
     const hn::Rebind<std::uint16_t, DFloat> d16;
     const int area = tables.area[static_cast<std::size_t>(tables.sMin + k)];
-    const CLogs logs(area);
+    const CLogs logs(tables.bound[static_cast<std::size_t>(k)].log2Area);
     auto sum = hn::Zero(d);
     const std::uint16_t* count = part.counts.get() + k * part.present * kPart + x;
     for (int b = 0; b < part.present; ++b, count += kPart)
@@ -469,20 +505,24 @@ HWY_INLINE void computeChanges(const TScaleTables& tables, int x, int lastScale,
 }
 
 template <class COUNT>
-void searchAbove(const TScaleTables& tables, const COUNT* rings, double yMin, TPart& part) {
+void searchAbove(const TScaleTables& tables,
+                 const COUNT* rings,
+                 const std::uint16_t* overlap,
+                 int lastScale,
+                 double yMin,
+                 TPart& part) {
     const DFloat d;
-    boundChanges(tables, rings, part);
-    boundW(tables, part);
+    sumCounts(tables, rings, lastScale + 1, part);
+    boundW(tables, overlap, lastScale, part);
     clearMarks(tables, part);
     for (int i = 0; i < kPart; ++i) part.place[i] = static_cast<std::uint8_t>(i);
-    const int scales = tables.scales();
-    const auto least = hn::Set(d, static_cast<float>(yMin / tables.logTwo * (1 - 1e-5)));
+    const auto least = hn::Set(d, static_cast<float>(yMin / tables.logTwo / kRoundedUp));
     const auto highest = hn::Set(d, static_cast<float>(std::log2(part.present)) + 1e-4F);
     for (int x = 0; x < kPart; x += kFloats) {
         const float* const w = part.wBound.get() + x;
         int lastCandidate = 0;
         int entropiesTo = -1;  // scales whose entropies are known, of those last asked for
-        for (int k = 1; k + 1 < scales; ++k) {
+        for (int k = 1; k <= lastScale; ++k) {
             const auto wHere = hn::Load(d, w + k * kPart);
             if (hn::AllFalse(d, hn::Ge(hn::Mul(wHere, highest), least))) continue;
             float* const entropy = part.entropy.get() + k * kPart + x;
@@ -504,7 +544,7 @@ void searchAbove(const TScaleTables& tables, const COUNT* rings, double yMin, TP
 
 template <class COUNT>
 TKernels<COUNT> kernels() {
-    return {fill, count<COUNT>, search<COUNT>, searchAbove<COUNT>};
+    return {fill, count<COUNT>, addOverlap<COUNT>, lastScale, search<COUNT>, searchAbove<COUNT>};
 }
 
 }  // namespace HWY_NAMESPACE
@@ -518,7 +558,6 @@ TPart::TPart(const TScaleTables& tables) {
     const auto n = static_cast<std::size_t>(tables.scales() * kPart);
     const auto words = static_cast<std::size_t>((tables.scales() + kInWord - 1) / kInWord * kPart);
     counts = hwy::AllocateAligned<std::uint16_t>(n * static_cast<std::size_t>(tables.bins));
-    bound = hwy::AllocateAligned<std::uint16_t>(n);
     change = hwy::AllocateAligned<std::int32_t>(n);
     entropy = hwy::AllocateAligned<float>(n);
     wBound = hwy::AllocateAligned<float>(n);

@@ -15,14 +15,12 @@ constexpr int kInWord = 32;  // scales whose marks share a word
 
 /// What is known of kPart centres of a row. Places are those of the centres in another order.
 struct TPart {
-    TPart(const TScaleTables& tables);
-    void setPresent(int bins);
+    explicit TPart(const TScaleTables& tables);
 
     template <class T>
     using TBuffer = hwy::AlignedFreeUniquePtr<T[]>;
     int present{0};                 //!< Bins that are counted.
     TBuffer<std::uint16_t> counts;  //!< [scale][present][centre] pixels of the disc in the bin.
-    TBuffer<std::uint16_t> bound;   //!< [scale][centre] at least the change of the histogram.
     TBuffer<std::int32_t> change;   //!< [scale][place] sum max(0, r N' - n' R).
     TBuffer<float> entropy;         //!< [scale][place] about H [bit].
     TBuffer<float> wBound;          //!< [scale][place] at least W.
@@ -40,28 +38,51 @@ struct TKernels {
     /** Writes the bitmap of one bin.
      * \param bins First pixel of the window; the window has [height x width] pixels, height at
      * most kTileRows + 2 reach, width at most kLanes + 2 reach.
-     * \param inRow [height] whether the bin occurs in a row. */
+     * \param perRow [height] how many pixels of a row are in the bin. */
     void (*fill)(const TBitmapLayout& layout,
                  const cv::Mat& window,
                  std::uint8_t bin,
                  std::uint64_t* bitmap,
-                 std::uint8_t* inRow){nullptr};
+                 std::uint16_t* perRow){nullptr};
 
     /** How many pixels of a bin lie in each ring about the kLanes centres of kBandRows rows.
-     * \param bitmap Word of offset (-reach, -reach) from the first row of the band.
+     * \param bitmap The bin's, from the band's first row on.
+     * \param scales How many, from the smallest.
      * \param out [row][scale][lane], rows `stride` apart. */
     void (*count)(const TScaleTables& tables,
                   const std::uint64_t* bitmap,
+                  int scales,
                   std::size_t stride,
                   COUNT* out){nullptr};
+
+    /** Adds what a bin has in common between ring and disc before, rounded down.
+     * \param rings Result of `count`. \param overlap [row][scale][lane] */
+    void (*addOverlap)(const TScaleTables& tables,
+                       const COUNT* rings,
+                       int scales,
+                       std::size_t stride,
+                       std::uint16_t* overlap){nullptr};
+
+    /** The largest scale at which a centre can have D >= atLeast, if other bins added nothing to
+     * the overlaps; 0 if there is none.
+     * \param overlap Of one row, [scale][lane], up to `scales`. \param count Centres. */
+    int (*lastScale)(const TScaleTables& tables,
+                     const std::uint16_t* overlap,
+                     int scales,
+                     int count,
+                     const std::uint16_t* atLeast){nullptr};
 
     /** Marks the peaks of a part's entropies, and computes its W.
      * \param rings Result of `count` for the part's first centre, [present][scale][lane]. */
     void (*search)(const TScaleTables& tables, const COUNT* rings, TPart& part){nullptr};
 
-    /// As `search`, but leaves out what cannot be a peak with Y >= yMin.
+    /** As `search`, but leaves out what cannot be a peak with Y >= yMin.
+     * \param overlap Of all bins, [scale][lane] for the part's first centre.
+     * \param lastScale Scales above cannot have one; rings and overlaps are known to the next. */
     void (*searchAbove)(const TScaleTables& tables,
                         const COUNT* rings,
+                        const std::uint16_t* overlap,
+                        int lastScale,
                         double yMin,
                         TPart& part){nullptr};
 };
