@@ -24,15 +24,16 @@ CSaliencyTile<COUNT>::CSaliencyTile(const TScaleTables& tables, const TKernels<C
       m_part(tables) {}
 
 template <class COUNT>
-void CSaliencyTile<COUNT>::detect(const cv::Mat& bins,
-                                  const cv::Rect& centres,
-                                  double yMin,
-                                  TPeaks* rows) {
+TTilePeaks CSaliencyTile<COUNT>::detect(const cv::Mat& bins,
+                                        const cv::Rect& centres,
+                                        double yMin) {
     m_yMin = yMin;
+    TTilePeaks found;
     const int reach = m_tables.sMax;
     fillBitmaps(bins({centres.x - reach, centres.y - reach, centres.width + 2 * reach,
                       centres.height + 2 * reach}));
-    for (int row = 0; row < centres.height; row += kBandRows) detectBand(centres, row, rows);
+    for (int row = 0; row < centres.height; row += kBandRows) detectBand(centres, row, found);
+    return found;
 }
 
 template <class COUNT>
@@ -66,8 +67,9 @@ void CSaliencyTile<COUNT>::findPresent(int row, int count) {
 }
 
 template <class COUNT>
-void CSaliencyTile<COUNT>::detectBand(const cv::Rect& centres, int row, TPeaks* rows) {
+void CSaliencyTile<COUNT>::detectBand(const cv::Rect& centres, int row, TTilePeaks& found) {
     const int count = std::min(kBandRows, centres.height - row);
+    std::fill_n(found.ends.begin() + row, count, found.peaks.size());
     findPresent(row, count);
     const double wBound =
         *std::max_element(m_tables.wMax.begin() + m_tables.sMin + 1, m_tables.wMax.end());
@@ -83,12 +85,14 @@ void CSaliencyTile<COUNT>::detectBand(const cv::Rect& centres, int row, TPeaks* 
         countNeeded({centres.width, count}, row);
     else
         for (std::size_t i = 0; i < m_present.size(); ++i) countBin(i, row, m_scales);
-    for (int r = 0; r < count; ++r)
+    for (int r = 0; r < count; ++r) {
         for (int x = 0; x < centres.width; x += kPart) {
             if (m_yMin > 0 && m_lastScales[r][x / kPart] == 0) continue;
             searchPart(r, x);
-            emitPeaks(centres.x + x, std::min(kPart, centres.width - x), rows[row + r]);
+            emitPeaks(centres.x + x, std::min(kPart, centres.width - x), found.peaks);
         }
+        found.ends[static_cast<std::size_t>(row + r)] = found.peaks.size();
+    }
 }
 
 template <class COUNT>
@@ -153,7 +157,24 @@ void CSaliencyTile<COUNT>::searchPart(int bandRow, int x) {
 }
 
 template <class COUNT>
-void CSaliencyTile<COUNT>::emitPeaks(int firstColumn, int count, TPeaks& found) const {
+void CSaliencyTile<COUNT>::emitPeaks(int firstColumn, int count, std::vector<TPeak>& found) {
+    findCandidates(count);
+    const std::size_t candidates = m_candidates.size();
+    m_candidates.resize((candidates + kTogether - 1) / kTogether * kTogether, {0, 1});
+    std::array<double, kTogether> h{};
+    for (std::size_t i = 0; i < candidates; ++i) {
+        if (i % kTogether == 0) computeEntropies(&m_candidates[i], h.data());
+        const auto& c = m_candidates[i];
+        const double w = m_part.w[c.k * kPart + m_part.place[static_cast<std::size_t>(c.x)]];
+        if (h[i % kTogether] * w >= m_yMin)
+            found.push_back({static_cast<std::uint16_t>(firstColumn + c.x),
+                             static_cast<std::uint16_t>(m_tables.sMin + c.k), h[i % kTogether], w});
+    }
+}
+
+template <class COUNT>
+void CSaliencyTile<COUNT>::findCandidates(int count) {
+    m_candidates.clear();
     for (int x = 0; x < count; ++x) {
         const int place = m_part.place[static_cast<std::size_t>(x)];
         for (int word = 0; word * kInWord < m_scales; ++word) {
@@ -162,12 +183,7 @@ void CSaliencyTile<COUNT>::emitPeaks(int firstColumn, int count, TPeaks& found) 
                  left &= left - 1) {
                 const int bit = __builtin_ctz(left);
                 const int k = word * kInWord + bit;
-                if ((certain >> bit & 1) == 0 && !isPeak(k, x)) continue;
-                const double h = entropy(k, x);
-                const double w = m_part.w[k * kPart + place];
-                if (h * w >= m_yMin)
-                    found.push_back({static_cast<std::uint16_t>(firstColumn + x),
-                                     static_cast<std::uint16_t>(m_tables.sMin + k), h, w});
+                if ((certain >> bit & 1) != 0 || isPeak(k, x)) m_candidates.push_back({x, k});
             }
         }
     }
@@ -188,6 +204,22 @@ double CSaliencyTile<COUNT>::entropy(int k, int x) const {
     double sum = 0;
     for (int b = 0; b < m_part.present; ++b, count += kPart) sum += nLogN[*count];
     return (nLogN[area] - sum) / area;
+}
+
+/// Each is the sum of entropy(), in the same order.
+template <class COUNT>
+void CSaliencyTile<COUNT>::computeEntropies(const TCandidate* candidates, double* h) const {
+    const double* const nLogN = m_tables.nLogN.data();
+    std::array<const std::uint16_t*, kTogether> counts{};
+    std::array<double, kTogether> sums{};
+    for (std::size_t i = 0; i < kTogether; ++i)
+        counts[i] = m_part.counts.get() + candidates[i].k * m_part.present * kPart + candidates[i].x;
+    for (int b = 0; b < m_part.present; ++b)
+        for (std::size_t i = 0; i < kTogether; ++i) sums[i] += nLogN[counts[i][b * kPart]];
+    for (std::size_t i = 0; i < kTogether; ++i) {
+        const int area = m_tables.area[static_cast<std::size_t>(m_tables.sMin + candidates[i].k)];
+        h[i] = (nLogN[area] - sums[i]) / area;
+    }
 }
 
 template class CSaliencyTile<std::uint8_t>;

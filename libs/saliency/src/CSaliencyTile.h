@@ -16,26 +16,33 @@ struct TPeak {
     double W{0};
 };
 
+/// Peaks of a tile by row, column, scale; those of a row end where those of the next begin.
+struct TTilePeaks {
+    std::vector<TPeak> peaks;
+    std::array<std::size_t, kTileRows> ends{};
+};
+
 /** Finds the peaks of up to kLanes x kTileRows centres; its buffers serve one tile after another.
  * One per thread. */
 template <class COUNT>
 class CSaliencyTile {
  public:
-    using TPeaks = std::vector<TPeak>;
-
     CSaliencyTile(const TScaleTables& tables, const TKernels<COUNT>& kernels);
 
     /** \param bins The picture's cells of the histogram, CV_8UC1.
-     * \param centres Which pixels are centres; at least sMax from each border.
-     * \param rows One list for each row of centres, to which its peaks are added by column, scale.
-     */
-    void detect(const cv::Mat& bins, const cv::Rect& centres, double yMin, TPeaks* rows);
+     * \param centres Which pixels are centres; at least sMax from each border. */
+    TTilePeaks detect(const cv::Mat& bins, const cv::Rect& centres, double yMin);
 
  private:
+    struct TCandidate {
+        int x{0};
+        int k{0};
+    };
+
     void fillBitmaps(const cv::Mat& window);
     /// Bins with a pixel in the discs of the centres of `count` rows from `row`.
     void findPresent(int row, int count);
-    void detectBand(const cv::Rect& centres, int row, TPeaks* rows);
+    void detectBand(const cv::Rect& centres, int row, TTilePeaks& found);
     /// Counts a bin in the band that begins with `row`, up to a number of scales.
     void countBin(std::size_t present, int row, int scales);
     /** Counts bins, the most frequent first, only as long and as far as there can be a peak.
@@ -43,9 +50,15 @@ class CSaliencyTile {
     void countNeeded(const cv::Size& centres, int row);
     std::vector<std::uint16_t> leastChanges() const;
     void searchPart(int bandRow, int x);
-    void emitPeaks(int firstColumn, int count, TPeaks& found) const;
+    /// Peaks of a part of which `count` centres exist, the first in `firstColumn`.
+    void emitPeaks(int firstColumn, int count, std::vector<TPeak>& found);
+    void findCandidates(int count);
     bool isPeak(int k, int x) const;
     double entropy(int k, int x) const;
+    /// H of several candidates at once: one would wait for its own additions.
+    void computeEntropies(const TCandidate* candidates, double* h) const;
+
+    static constexpr std::size_t kTogether = 4;
 
     const TScaleTables& m_tables;
     TKernels<COUNT> m_kernels;
@@ -61,6 +74,7 @@ class CSaliencyTile {
     hwy::AlignedFreeUniquePtr<std::uint16_t[]> m_overlap;  //!< [band row][scale][lane]
     int m_lastScales[kBandRows][kLanes / kPart]{};  //!< The last that can have a peak, or 0.
     TPart m_part;
+    std::vector<TCandidate> m_candidates;  //!< Peaks of entropy of the part, by centre, scale.
 };
 
 }  // namespace salma::saliency

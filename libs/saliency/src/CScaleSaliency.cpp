@@ -18,36 +18,39 @@ using TRegions = std::vector<observations::TSalientRegion>;
 
 namespace {
 
-/// A tile's centres and the lists for their peaks.
+/// A tile's centres and their peaks.
 struct TJob {
     cv::Rect centres;
-    std::vector<std::vector<TPeak>> rows;
+    TTilePeaks found;
 };
 
 /// The tiles of a picture, row by row of tiles.
 std::vector<TJob> cut(const cv::Rect& centres) {
     std::vector<TJob> jobs;
     for (int y = centres.y; y < centres.br().y; y += kTileRows)
-        for (int x = centres.x; x < centres.br().x; x += kLanes) {
-            const cv::Rect tile = cv::Rect(x, y, kLanes, kTileRows) & centres;
-            jobs.push_back({tile, std::vector<std::vector<TPeak>>(static_cast<std::size_t>(tile.height))});
-        }
+        for (int x = centres.x; x < centres.br().x; x += kLanes)
+            jobs.push_back({cv::Rect(x, y, kLanes, kTileRows) & centres, {}});
     return jobs;
 }
 
-TRegions joinRows(const std::vector<TJob>& jobs) {
+/// The peaks of all tiles by row, column, scale.
+TRegions join(const std::vector<TJob>& jobs) {
     std::size_t count = 0;
-    for (const auto& job : jobs)
-        for (const auto& row : job.rows) count += row.size();
+    for (const auto& job : jobs) count += job.found.peaks.size();
     TRegions all;
     all.reserve(count);
     for (std::size_t first = 0, last = 0; first < jobs.size(); first = last) {
         const cv::Rect& tile = jobs[first].centres;
         while (last < jobs.size() && jobs[last].centres.y == tile.y) ++last;
         for (std::size_t r = 0; r < static_cast<std::size_t>(tile.height); ++r)
-            for (std::size_t i = first; i < last; ++i)
-                for (const TPeak& p : jobs[i].rows[r])
-                    all.push_back({double(p.column), double(tile.y + int(r)), double(p.scale), p.H, p.W, p.H * p.W});
+            for (std::size_t i = first; i < last; ++i) {
+                const auto& found = jobs[i].found;
+                for (std::size_t p = r == 0 ? 0 : found.ends[r - 1]; p < found.ends[r]; ++p) {
+                    const TPeak& peak = found.peaks[p];
+                    all.push_back({double(peak.column), double(tile.y) + double(r),
+                                   double(peak.scale), peak.H, peak.W, peak.H * peak.W});
+                }
+            }
     }
     return all;
 }
@@ -60,7 +63,7 @@ void work(const TScaleTables& tables,
           ESimd simd) {
     CSaliencyTile<COUNT> tile(tables, kernelsFor<COUNT>(simd));
     for (TJob* job = next(); job != nullptr; job = next())
-        tile.detect(bins, job->centres, yMin, job->rows.data());
+        job->found = tile.detect(bins, job->centres, yMin);
 }
 
 std::string typeName(const cv::Mat& picture) {
@@ -118,7 +121,7 @@ TRegions CScaleSaliency::detect(const cv::Mat& grey, double yMin) const {
         others.push_back(std::async(std::launch::async, worker));
     worker();
     for (auto& other : others) other.get();
-    return joinRows(jobs);
+    return join(jobs);
 }
 
 cv::Mat CScaleSaliency::quantise(const cv::Mat& grey) const {

@@ -101,13 +101,13 @@ HWY_INLINE V64 addBits(V64& sum, V64 a, V64 b) {
     return carry;
 }
 
-/** Counts ring pixels with carry-save adders: plane p has bit p of each centre's count. */
+/** Counts ring pixels with carry-save adders: plane p gets bit p of each centre's count.
+ * Source: R. D. Harley and D. Seal; H. S. Warren, "Hacker's Delight", 2nd ed., section 5-1. */
 template <int PLANES>
 HWY_INLINE void sumRing(const std::vector<std::int32_t>& ring,
                         const std::uint64_t* bitmap,
-                        std::uint64_t* planes) {
+                        V64 (&plane)[PLANES]) {
     const D64 d;
-    V64 plane[PLANES];
     for (auto& p : plane) p = hn::Zero(d);
     const std::int32_t* const end = ring.data() + ring.size();
     for (const std::int32_t* at = ring.data(); at != end; at += kAtOnce) {
@@ -125,35 +125,103 @@ HWY_INLINE void sumRing(const std::vector<std::int32_t>& ring,
             carry = next;
         }
     }
-    for (int p = 0; p < PLANES; ++p) hn::Store(plane[p], d, planes + p * kBandRows);
 }
 
-/// The counts whose bits are the planes of one row.
-template <int PLANES, class COUNT>
-HWY_INLINE void joinPlanes(const std::uint64_t* planes, COUNT* out) {
-    const hn::CappedTag<COUNT, kLanes> d;
-    constexpr int n = static_cast<int>(hn::MaxLanes(d));
-    for (int x = 0; x < kLanes; x += n) {
-        auto sum = hn::Zero(d);
-        for (int p = 0; p < PLANES; ++p) {
-            const auto* const bits =
-                reinterpret_cast<const std::uint8_t*>(planes + p * kBandRows) + x / 8;
-            const auto bit = hn::Set(d, static_cast<COUNT>(1U << p));
-            sum = hn::Or(sum, hn::IfThenElseZero(hn::LoadMaskBits(d, bits), bit));
-        }
-        hn::Store(sum, d, out + x);
+/// Swaps the bits i + SHIFT of `low` with the bits i of `high`, for the bits i of `mask`.
+template <int SHIFT>
+HWY_INLINE void swapBits(V64& low, V64& high, std::uint64_t mask) {
+    const D64 d;
+    const auto different =
+        hn::And(hn::Xor(hn::ShiftRight<SHIFT>(low), high), hn::Set(d, mask));
+    high = hn::Xor(high, different);
+    low = hn::Xor(low, hn::ShiftLeft<SHIFT>(different));
+}
+
+/// Stores the 16-byte blocks of a vector, each in the row after the next.
+template <class D>
+HWY_INLINE void storeBlocks(D d, hn::Vec<D> v, std::size_t stride, std::uint8_t* out) {
+    if constexpr (hn::MaxLanes(D()) > 16) {
+        const hn::Half<D> half;
+        storeBlocks(half, hn::LowerHalf(half, v), stride, out);
+        storeBlocks(half, hn::UpperHalf(half, v), stride, out + hn::MaxLanes(half) / 8 * stride);
+    } else {
+        hn::Store(v, d, out);
     }
 }
 
-template <int PLANES, class COUNT>
+/** The bytes whose bits are eight planes of kWords rows: transposes the bits of each byte with
+ * those of the other planes' byte, then brings the bytes into the order of columns. */
+HWY_INLINE void joinPlanes(V64 (&p)[8], std::size_t stride, std::uint8_t* out) {
+    for (int i = 0; i < 8; i += 2) swapBits<1>(p[i], p[i + 1], 0x5555555555555555);
+    for (const int i : {0, 1, 4, 5}) swapBits<2>(p[i], p[i + 2], 0x3333333333333333);
+    for (int i = 0; i < 4; ++i) swapBits<4>(p[i], p[i + 4], 0x0f0f0f0f0f0f0f0f);
+    const hn::Repartition<std::uint8_t, D64> d8;
+    const hn::Repartition<std::uint16_t, D64> d16;
+    const hn::Repartition<std::uint32_t, D64> d32;
+    hn::Vec<decltype(d16)> pairs[2][4];  // of even and of odd rows
+    for (int i = 0; i < 4; ++i) {
+        const auto a = hn::BitCast(d8, p[2 * i]);
+        const auto b = hn::BitCast(d8, p[2 * i + 1]);
+        pairs[0][i] = hn::BitCast(d16, hn::InterleaveLower(d8, a, b));
+        pairs[1][i] = hn::BitCast(d16, hn::InterleaveUpper(d8, a, b));
+    }
+    for (int odd = 0; odd < 2; ++odd) {
+        const auto& pair = pairs[odd];
+        hn::Vec<decltype(d32)> fours[2][2] = {
+            {hn::BitCast(d32, hn::InterleaveLower(d16, pair[0], pair[1])),
+             hn::BitCast(d32, hn::InterleaveLower(d16, pair[2], pair[3]))},
+            {hn::BitCast(d32, hn::InterleaveUpper(d16, pair[0], pair[1])),
+             hn::BitCast(d32, hn::InterleaveUpper(d16, pair[2], pair[3]))}};
+        std::uint8_t* row = out + static_cast<std::size_t>(odd) * stride;
+        for (const auto& four : fours) {
+            const auto low = hn::InterleaveLower(d32, four[0], four[1]);
+            const auto high = hn::InterleaveUpper(d32, four[0], four[1]);
+            storeBlocks(d8, hn::BitCast(d8, low), stride, row);
+            storeBlocks(d8, hn::BitCast(d8, high), stride, row + 16);
+            row += 32;
+        }
+    }
+}
+
+template <int PLANES>
 void countRing(const std::vector<std::int32_t>& ring,
                const std::uint64_t* bitmap,
                std::size_t stride,
-               COUNT* out) {
-    HWY_ALIGN std::uint64_t planes[PLANES * kBandRows];
-    for (int r = 0; r < kBandRows; r += kWords) sumRing<PLANES>(ring, bitmap + r, planes + r);
-    for (std::size_t r = 0; r < kBandRows; ++r)
-        joinPlanes<PLANES>(planes + r, out + r * stride);
+               std::uint8_t* out) {
+    static_assert(kWords >= 2, "joinPlanes works on pairs of rows");
+    for (std::size_t r = 0; r < kBandRows; r += kWords) {
+        V64 planes[PLANES];
+        sumRing(ring, bitmap + r, planes);
+        V64 eight[8];
+        for (int p = 0; p < 8; ++p) eight[p] = p < PLANES ? planes[p] : hn::Zero(D64());
+        joinPlanes(eight, stride, out + r * stride);
+    }
+}
+
+/// As above, for counts beyond a byte.
+template <int PLANES>
+void countRing(const std::vector<std::int32_t>& ring,
+               const std::uint64_t* bitmap,
+               std::size_t stride,
+               std::uint16_t* out) {
+    const hn::Rebind<std::uint8_t, D16> d8;
+    const D16 d16;
+    HWY_ALIGN std::uint8_t bytes[2][kWords * kLanes];
+    for (std::size_t r = 0; r < kBandRows; r += kWords) {
+        V64 planes[16];
+        sumRing(ring, bitmap + r, planes);
+        V64 eight[8];
+        for (int high = 0; high < 2; ++high) {
+            std::copy(planes + 8 * high, planes + 8 * high + 8, eight);
+            joinPlanes(eight, kLanes, bytes[high]);
+        }
+        for (std::size_t x = 0; x < kWords * kLanes; x += kShorts) {
+            const auto low = hn::PromoteTo(d16, hn::Load(d8, bytes[0] + x));
+            const auto high = hn::PromoteTo(d16, hn::Load(d8, bytes[1] + x));
+            hn::Store(hn::Or(low, hn::ShiftLeft<8>(high)), d16,
+                      out + (r + x / kLanes) * stride + x % kLanes);
+        }
+    }
 }
 
 template <class COUNT>
@@ -169,10 +237,8 @@ void count(const TScaleTables& tables,
             countRing<6>(ring, bitmap, stride, out);
         else if (most < 128)
             countRing<7>(ring, bitmap, stride, out);
-        else if (most < 256)
+        else
             countRing<8>(ring, bitmap, stride, out);
-        else if constexpr (sizeof(COUNT) == 2)
-            countRing<16>(ring, bitmap, stride, out);
     }
 }
 
