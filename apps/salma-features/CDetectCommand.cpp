@@ -48,22 +48,26 @@ TDetectConfig TDetectConfig::load(const std::string& file) {
     TDetectConfig loaded;
     loaded.saliency.loadFromConfigFile(*ini, "saliency");
     loaded.clustering.loadFromConfigFile(*ini, "clustering");
+    loaded.affine.loadFromConfigFile(*ini, "affine");
     loaded.mser.loadFromConfigFile(*ini, "mser");
     return loaded;
 }
 
 std::string TDetectConfig::asIni() const {
     return saliency.asIni("saliency") + "\n" + clustering.asIni("clustering") + "\n" +
-           mser.asIni("mser");
+           affine.asIni("affine") + "\n" + mser.asIni("mser");
 }
 
 CDetectCommand::CDetectCommand(CLI::App& app)
     : m_command(app.add_subcommand("detect", kDescription)) {
     m_command->add_option("IMAGE", m_images, "pictures; their names must differ");
     m_command->add_option("--out", m_out, "folder for the results");
-    m_command->add_option("--config", m_configFile, "ini file: [saliency], [clustering], [mser]");
+    m_command->add_option("--config", m_configFile,
+                          "ini file: [saliency], [clustering], [affine], [mser]");
     m_command->add_option("--detector", m_detector, "scale-saliency (default) or mser")
         ->check(CLI::IsMember({"scale-saliency", "mser"}));
+    m_command->add_flag("--affine", m_affine,
+                        "adapt the regions to ellipses, as [affine] use does");
     m_command->add_flag("--peaks", m_peaks, "write all entropy peaks too, before clustering");
     m_command->add_option("--y-min", m_yMin,
                           "least saliency of a region, in the detector's base (default 0)");
@@ -80,12 +84,14 @@ void CDetectCommand::checkUsage() const {
     if (m_out.empty()) throw CLI::RequiredError("--out");
     if (!(m_yMin >= 0))  // false for NaN, which CLI11 lets pass
         throw CLI::ValidationError("--y-min", "must be a number from 0");
-    if (m_detector == "mser" && (m_peaks || m_command->count("--y-min") > 0))
-        throw CLI::ValidationError("--detector mser", "has no entropy peaks and no saliency");
+    if (m_detector == "mser" && (m_peaks || m_affine || m_command->count("--y-min") > 0))
+        throw CLI::ValidationError("--detector mser",
+                                   "has no entropy peaks, no saliency and no --affine");
 }
 
 void CDetectCommand::run(std::ostream& out) {
     if (!m_configFile.empty()) m_config = TDetectConfig::load(m_configFile);
+    if (m_affine) m_config.affine.use = true;
     if (m_printConfig) {
         out << m_config.asIni();
         return;
@@ -110,16 +116,29 @@ void CDetectCommand::run(std::ostream& out) {
 std::string CDetectCommand::findSalient(const cv::Mat& grey, const std::string& prefix) const {
     const int window = 2 * m_config.saliency.scaleMax + 1;
     const auto peaks = saliency::CScaleSaliency(m_config.saliency).detect(grey, m_yMin);
-    const auto clusters = saliency::createClusterer(m_config.clustering)->cluster(peaks);
-    std::vector<saliency::TEllipse> discs;
-    std::transform(clusters.regions.begin(), clusters.regions.end(), std::back_inserter(discs),
-                   saliency::ellipseOf);
+    auto regions = saliency::createClusterer(m_config.clustering)->cluster(peaks).regions;
+    std::vector<saliency::TEllipse> ellipses;
+    std::string summary =
+        std::to_string(peaks.size()) + " peaks, " + std::to_string(regions.size()) + " regions";
+    if (m_config.affine.use) {
+        auto adapted =
+            saliency::CAffineSaliency(m_config.affine, m_config.saliency).adapt(grey, regions);
+        summary += ", " + std::to_string(regions.size() - adapted.withoutPeak) +
+                   " of them adapted to ellipses";
+        std::stable_sort(adapted.regions.begin(), adapted.regions.end(),
+                         [](const auto& a, const auto& b) { return a.Y > b.Y; });
+        for (std::size_t i = 0; i < regions.size(); ++i) {
+            regions[i] = saliency::asDisc(adapted.regions[i]);
+            ellipses.push_back(adapted.regions[i].ellipse);
+        }
+    } else {
+        std::transform(regions.begin(), regions.end(), std::back_inserter(ellipses),
+                       saliency::ellipseOf);
+    }
     if (m_peaks) saliency::writeRegionsCsv(prefix + ".peaks.csv", peaks);
-    saliency::writeRegionsCsv(prefix + ".regions.csv", clusters.regions);
-    saliency::writeVgg(prefix + ".vgg", discs);
-    writePicture(prefix + ".overlay.png", drawOverlay(grey, clusters.regions));
-    std::string summary = std::to_string(peaks.size()) + " peaks, " +
-                          std::to_string(clusters.regions.size()) + " regions";
+    saliency::writeRegionsCsv(prefix + ".regions.csv", regions);
+    saliency::writeVgg(prefix + ".vgg", ellipses);
+    writePicture(prefix + ".overlay.png", drawOverlay(grey, ellipses));
     if (std::min(grey.rows, grey.cols) < window)
         summary += " (smaller than the window of " + std::to_string(window) + " px)";
     return summary;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <salma/saliency/CAffineSaliency.h>
 #include <salma/saliency/CClusterer.h>
 #include <salma/saliency/CScaleSaliency.h>
 #include <salma/saliency/CStableRegions.h>
@@ -12,15 +13,16 @@
 
 namespace salma::apps {
 
-/// What `detect` takes from a configuration file: sections [saliency], [clustering], [mser].
+/// What `detect` takes from a configuration file: [saliency], [clustering], [affine], [mser].
 struct TDetectConfig {
     saliency::TScaleSaliencyOptions saliency;
     saliency::TClusteringOptions clustering;
+    saliency::TAffineOptions affine;
     saliency::TStableRegionsOptions mser;
 
     /// Other sections of the file are left unread. \throw std::invalid_argument
     static TDetectConfig load(const std::string& file);
-    /// The three sections with every key.
+    /// These sections with every key.
     std::string asIni() const;
 };
 
@@ -53,6 +55,7 @@ class CDetectCommand {
     std::string m_configFile;
     std::string m_detector{"scale-saliency"};
     double m_yMin{0};
+    bool m_affine{false};
     bool m_peaks{false};
     bool m_printConfig{false};
 };

@@ -31,10 +31,10 @@ void outline(cv::Mat& picture,
     cv::ellipse(picture, box, colour, thickness, cv::LINE_AA);
 }
 
-void number(cv::Mat& picture, const observations::TSalientRegion& region, std::size_t rank) {
+void number(cv::Mat& picture, const saliency::TEllipse& region, std::size_t rank) {
     const std::string text = std::to_string(rank + 1);
-    const double corner = region.s * 0.7;
-    const cv::Point place(cv::Point2d(region.x + corner + 2, region.y - corner));
+    const double corner = region.radius() * 0.7;
+    const cv::Point place(cv::Point2d(region.u + corner + 2, region.v - corner));
     const auto font = cv::FONT_HERSHEY_SIMPLEX;
     cv::putText(picture, text, place, font, 0.4, cv::Scalar(0, 0, 0), 3, cv::LINE_AA);
     cv::putText(picture, text, place, font, 0.4, colourOf(rank), 1, cv::LINE_AA);
@@ -48,13 +48,12 @@ cv::Mat inColour(const cv::Mat& grey) {
 
 }  // namespace
 
-cv::Mat drawOverlay(const cv::Mat& grey, const std::vector<observations::TSalientRegion>& regions) {
+cv::Mat drawOverlay(const cv::Mat& grey, const std::vector<saliency::TEllipse>& regions) {
     cv::Mat picture = inColour(grey);
     const std::size_t ranked = std::min(kRanked, regions.size());
     for (std::size_t i = ranked; i < regions.size(); ++i)
-        outline(picture, saliency::ellipseOf(regions[i]), cv::Scalar::all(255), 1);
-    for (std::size_t i = ranked; i-- > 0;)
-        outline(picture, saliency::ellipseOf(regions[i]), colourOf(i), 2);
+        outline(picture, regions[i], cv::Scalar::all(255), 1);
+    for (std::size_t i = ranked; i-- > 0;) outline(picture, regions[i], colourOf(i), 2);
     for (std::size_t i = ranked; i-- > 0;) number(picture, regions[i], i);
     return picture;
 }

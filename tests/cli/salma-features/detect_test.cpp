@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
+#include <salma/saliency/CAffineSaliency.h>
 #include <salma/saliency/CGreedyClusterer.h>
 #include <salma/saliency/CScaleSaliency.h>
 #include <salma/saliency/regionFiles.h>
@@ -125,6 +126,52 @@ TEST(SalmaFeaturesDetect, LeavesOutRegionsBelowYMin) {
     EXPECT_EQ(linesOf(folder / "few/poster.regions.csv"), expected);
 }
 
+TEST(SalmaFeaturesDetect, WritesTheEllipsesOfTheLibraryIfAskedByFlagOrIni) {
+    const CTemporaryFolder folder;
+    const std::string file = posterFile(folder);
+    const std::string ini = folder.write(
+        "kadir.ini", "[clustering]\nmethod = kadir\nmax_variance_px2 = 4\n[affine]\nuse = true\n");
+    const std::string alsoFlag =
+        folder.write("flag.ini", "[clustering]\nmethod = kadir\nmax_variance_px2 = 4\n");
+    const std::string out = (folder / "out").string();
+    const auto result = detect({file, "--out", out, "--config", ini});
+    ASSERT_EQ(result.exitCode, 0) << result.output;
+    const std::string again = (folder / "again").string();
+    ASSERT_EQ(detect({file, "--out", again, "--config", alsoFlag, "--affine"}).exitCode, 0);
+    for (const std::string name : {"/poster.vgg", "/poster.regions.csv"})
+        EXPECT_EQ(readFile(out + name), readFile(again + name));
+
+    const cv::Mat grey = cv::imread(file, cv::IMREAD_GRAYSCALE);
+    saliency::TClusteringOptions clustering;
+    clustering.method = saliency::EClustering::kadir;
+    clustering.maxVariance = 4;
+    const auto discs =
+        saliency::createClusterer(clustering)->cluster(saliency::CScaleSaliency().detect(grey));
+    auto expected = saliency::CAffineSaliency().adapt(grey, discs.regions);
+    std::stable_sort(expected.regions.begin(), expected.regions.end(),
+                     [](const auto& a, const auto& b) { return a.Y > b.Y; });
+    const auto ellipses = saliency::readVgg(out + "/poster.vgg");
+    const auto lines = linesOf(out + "/poster.regions.csv");
+    ASSERT_EQ(ellipses.size(), expected.regions.size());
+    ASSERT_EQ(lines.size(), ellipses.size() + 1);
+    ASSERT_GT(ellipses.size(), 5u);
+    for (std::size_t i = 0; i < ellipses.size(); ++i) {
+        const auto& e = expected.regions[i];
+        EXPECT_NEAR(ellipses[i].a, e.ellipse.a, 1e-9 * e.ellipse.a);
+        EXPECT_NEAR(ellipses[i].b, e.ellipse.b, 1e-9);
+        double x = 0, y = 0, s = 0, H = 0, W = 0, Y = 0;
+        ASSERT_EQ(
+            std::sscanf(lines[i + 1].c_str(), "%lf,%lf,%lf,%lf,%lf,%lf", &x, &y, &s, &H, &W, &Y),
+            6);
+        EXPECT_NEAR(s, ellipses[i].radius(), 1e-6);
+        EXPECT_NEAR(Y, e.Y, 1e-8);
+    }
+    EXPECT_TRUE(std::any_of(ellipses.begin(), ellipses.end(),
+                            [](const auto& e) { return std::abs(e.b) > 1e-4; }));
+    EXPECT_NE(result.output.find(" of them adapted to ellipses\n"), std::string::npos);
+    EXPECT_NE(readFile(out + "/poster.overlay.png"), "");
+}
+
 TEST(SalmaFeaturesDetect, WritesStableRegionsWithTheirPolarity) {
     const CTemporaryFolder folder;
     cv::Mat picture(100, 100, CV_8UC1, cv::Scalar(220));
@@ -230,6 +277,7 @@ TEST(SalmaFeaturesDetect, RefusesMisuseWithCodeTwo) {
     expectUsageError(detect({"a.png", "--out", "x", "--y-min", "-1"}), "--y-min");
     expectUsageError(detect({"a.png", "--out", "x", "--y-min", "nan"}), "--y-min");
     expectUsageError(detect({"a.png", "--out", "x", "--detector", "mser", "--peaks"}), "peaks");
+    expectUsageError(detect({"a.png", "--out", "x", "--detector", "mser", "--affine"}), "affine");
 }
 
 TEST(SalmaFeaturesDetect, BeginsItsHelpWithExamples) {
