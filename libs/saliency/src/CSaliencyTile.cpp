@@ -84,7 +84,7 @@ void CSaliencyTile<COUNT>::detectBand(const cv::Rect& centres, int row, TTilePea
     if (m_yMin > 0)
         countNeeded({centres.width, count}, row);
     else
-        for (std::size_t i = 0; i < m_present.size(); ++i) countBin(i, row, m_scales);
+        countAll(row);
     for (int r = 0; r < count; ++r) {
         for (int x = 0; x < centres.width; x += kPart) {
             if (m_yMin > 0 && m_lastScales[r][x / kPart] == 0) continue;
@@ -97,8 +97,26 @@ void CSaliencyTile<COUNT>::detectBand(const cv::Rect& centres, int row, TTilePea
 
 template <class COUNT>
 void CSaliencyTile<COUNT>::countBin(std::size_t present, int row, int scales) {
-    m_kernels.count(m_tables, m_bitmaps[m_present[present]].get() + row, scales,
-                    m_present.size() * m_ofBin, m_rings.get() + present * m_ofBin);
+    const std::size_t bin = m_present[present];
+    const auto window = m_perRow[bin].begin() + row;
+    const auto end = m_perRow[bin].end() - window < kBandRows + 2 * m_tables.sMax
+                         ? m_perRow[bin].end()
+                         : window + kBandRows + 2 * m_tables.sMax;
+    const auto occurs = [](int pixels) { return pixels > 0; };
+    const auto first = std::find_if(window, end, occurs);
+    const auto last = std::find_if(std::make_reverse_iterator(end),
+                                   std::make_reverse_iterator(first), occurs);
+    const cv::Range rows(static_cast<int>(first - window), static_cast<int>(last.base() - window));
+    m_kernels.count(m_tables, m_bitmaps[bin].get() + row, rows, scales, m_present.size() * m_ofBin,
+                    m_rings.get() + present * m_ofBin);
+}
+
+template <class COUNT>
+void CSaliencyTile<COUNT>::countAll(int row) {
+    for (std::size_t i = 0; i + 1 < m_present.size(); ++i) countBin(i, row, m_scales);
+    for (std::size_t r = 0; r < kBandRows; ++r)
+        m_kernels.countLast(m_tables, static_cast<int>(m_present.size()),
+                            m_rings.get() + r * m_present.size() * m_ofBin);
 }
 
 /// W >= yMin / log(bins) means this D, smoothed; the 16-bit sums lose less than 4.

@@ -45,6 +45,7 @@ class CSaliencyTile {
     void detectBand(const cv::Rect& centres, int row, TTilePeaks& found);
     /// Counts a bin in the band that begins with `row`, up to a number of scales.
     void countBin(std::size_t present, int row, int scales);
+    void countAll(int row);
     /** Counts bins, the most frequent first, only as long and as far as there can be a peak.
      * \return The last scale that can have one, for each row and part; 0 if none can. */
     void countNeeded(const cv::Size& centres, int row);

@@ -101,14 +101,18 @@ void TScaleTables::listRings() {
     bitmap.zeros = (2 * sMax + 1) * bitmap.stride;
     bitmap.size = bitmap.zeros + bitmap.stride;
     rings.resize(static_cast<std::size_t>(scales()));
-    for (int dx = -sMax; dx <= sMax; ++dx)
-        for (int dy = -sMax; dy <= sMax; ++dy) {
+    for (int dy = -sMax; dy <= sMax; ++dy) {
+        for (auto& ring : rings) ring.rowStarts.push_back(ring.offsets.size());
+        for (int dx = -sMax; dx <= sMax; ++dx) {
             const int s = std::max(sMin, ceilRoot(dx * dx + dy * dy));
             if (s <= sMax)
-                rings[static_cast<std::size_t>(s - sMin)].push_back(bitmap.offset(dx, dy));
+                rings[static_cast<std::size_t>(s - sMin)].offsets.push_back(bitmap.offset(dx, dy));
         }
-    for (auto& ring : rings)
-        while (ring.size() % kAtOnce != 0) ring.push_back(bitmap.zeros);
+    }
+    for (auto& ring : rings) {
+        ring.rowStarts.push_back(ring.offsets.size());
+        while (ring.offsets.size() % kAtOnce != 0) ring.offsets.push_back(bitmap.zeros);
+    }
 }
 
 int TScaleTables::inRing(int k) const {

@@ -28,6 +28,13 @@ struct TBitmapLayout {
     std::int32_t offset(int dx, int dy) const { return (dx + reach) * stride + dy + reach; }
 };
 
+/// The pixels of ring(s) = {(s-1)^2 < i^2 + j^2 <= s^2}.
+struct TRing {
+    /// By row; filled up to a multiple of kAtOnce with zeros of the bitmap.
+    std::vector<std::int32_t> offsets;
+    std::vector<std::size_t> rowStarts;  //!< First of row dy, at dy + reach; one more at the end.
+};
+
 /** A scale's numbers for a bound of W in 16-bit arithmetic. With r of R ring pixels and n of the N
  * pixels of the disc before in a bin, the histogram changes by D = 2 R / (N + R) (1 - overlap),
  * overlap being the sum of min(r/R, n/N) over bins. */
@@ -58,9 +65,7 @@ struct TScaleTables {
     double logTwo;                //!< log 2 in the chosen base.
     std::vector<TBoundScale> bound;  //!< Of scales sMin..sMax.
     TBitmapLayout bitmap;
-    /** Offsets of the pixels of ring(s) = {(s-1)^2 < i^2 + j^2 <= s^2}, for s = sMin..sMax, the
-     * first being the whole disc; filled up to a multiple of kAtOnce with zeros of the bitmap. */
-    std::vector<std::vector<std::int32_t>> rings;
+    std::vector<TRing> rings;        //!< Of scales sMin..sMax, the first being the whole disc.
 
     int scales() const { return sMax - sMin + 1; }
     double log(double x) const;

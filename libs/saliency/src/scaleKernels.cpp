@@ -101,30 +101,41 @@ HWY_INLINE V64 addBits(V64& sum, V64 a, V64 b) {
     return carry;
 }
 
+/// Adds 2^LEVEL ring pixels to the planes below LEVEL, and returns the carries into that plane.
+template <int LEVEL>
+HWY_INLINE V64 addPixels(const std::uint64_t* bitmap, const std::int32_t* at, V64* plane) {
+    const D64 d;
+    if constexpr (LEVEL == 1) {
+        return addBits(plane[0], hn::LoadU(d, bitmap + at[0]), hn::LoadU(d, bitmap + at[1]));
+    } else {
+        const auto first = addPixels<LEVEL - 1>(bitmap, at, plane);
+        const auto second = addPixels<LEVEL - 1>(bitmap, at + (1 << (LEVEL - 1)), plane);
+        return addBits(plane[LEVEL - 1], first, second);
+    }
+}
+
+template <int FROM, int PLANES>
+HWY_INLINE void addCarry(V64 carry, V64* plane) {
+    for (int p = FROM; p < PLANES; ++p) {
+        const auto next = hn::And(plane[p], carry);
+        plane[p] = hn::Xor(plane[p], carry);
+        carry = next;
+    }
+}
+
 /** Counts ring pixels with carry-save adders: plane p gets bit p of each centre's count.
  * Source: R. D. Harley and D. Seal; H. S. Warren, "Hacker's Delight", 2nd ed., section 5-1. */
 template <int PLANES>
-HWY_INLINE void sumRing(const std::vector<std::int32_t>& ring,
+HWY_INLINE void sumRing(const std::int32_t* first,
+                        const std::int32_t* last,
                         const std::uint64_t* bitmap,
                         V64 (&plane)[PLANES]) {
-    const D64 d;
-    for (auto& p : plane) p = hn::Zero(d);
-    const std::int32_t* const end = ring.data() + ring.size();
-    for (const std::int32_t* at = ring.data(); at != end; at += kAtOnce) {
-        const auto pixel = [&](int i) { return hn::LoadU(d, bitmap + at[i]); };
-        auto twos0 = addBits(plane[0], pixel(0), pixel(1));
-        auto twos1 = addBits(plane[0], pixel(2), pixel(3));
-        const auto fours0 = addBits(plane[1], twos0, twos1);
-        twos0 = addBits(plane[0], pixel(4), pixel(5));
-        twos1 = addBits(plane[0], pixel(6), pixel(7));
-        const auto fours1 = addBits(plane[1], twos0, twos1);
-        auto carry = addBits(plane[2], fours0, fours1);
-        for (int p = 3; p < PLANES; ++p) {
-            const auto next = hn::And(plane[p], carry);
-            plane[p] = hn::Xor(plane[p], carry);
-            carry = next;
-        }
-    }
+    static_assert(kAtOnce == 8, "counted by 2^3, or twice that");
+    for (auto& p : plane) p = hn::Zero(D64());
+    const std::int32_t* at = first;
+    for (; last - at >= 16; at += 16)
+        addCarry<4, PLANES>(addPixels<4>(bitmap, at, plane), plane);
+    if (at != last) addCarry<3, PLANES>(addPixels<3>(bitmap, at, plane), plane);
 }
 
 /// Swaps the bits i + SHIFT of `low` with the bits i of `high`, for the bits i of `mask`.
@@ -184,14 +195,15 @@ HWY_INLINE void joinPlanes(V64 (&p)[8], std::size_t stride, std::uint8_t* out) {
 }
 
 template <int PLANES>
-void countRing(const std::vector<std::int32_t>& ring,
+void countRing(const std::int32_t* first,
+               const std::int32_t* last,
                const std::uint64_t* bitmap,
                std::size_t stride,
                std::uint8_t* out) {
     static_assert(kWords >= 2, "joinPlanes works on pairs of rows");
     for (std::size_t r = 0; r < kBandRows; r += kWords) {
         V64 planes[PLANES];
-        sumRing(ring, bitmap + r, planes);
+        sumRing(first, last, bitmap + r, planes);
         V64 eight[8];
         for (int p = 0; p < 8; ++p) eight[p] = p < PLANES ? planes[p] : hn::Zero(D64());
         joinPlanes(eight, stride, out + r * stride);
@@ -200,7 +212,8 @@ void countRing(const std::vector<std::int32_t>& ring,
 
 /// As above, for counts beyond a byte.
 template <int PLANES>
-void countRing(const std::vector<std::int32_t>& ring,
+void countRing(const std::int32_t* first,
+               const std::int32_t* last,
                const std::uint64_t* bitmap,
                std::size_t stride,
                std::uint16_t* out) {
@@ -209,7 +222,7 @@ void countRing(const std::vector<std::int32_t>& ring,
     HWY_ALIGN std::uint8_t bytes[2][kWords * kLanes];
     for (std::size_t r = 0; r < kBandRows; r += kWords) {
         V64 planes[16];
-        sumRing(ring, bitmap + r, planes);
+        sumRing(first, last, bitmap + r, planes);
         V64 eight[8];
         for (int high = 0; high < 2; ++high) {
             std::copy(planes + 8 * high, planes + 8 * high + 8, eight);
@@ -227,19 +240,44 @@ void countRing(const std::vector<std::int32_t>& ring,
 template <class COUNT>
 void count(const TScaleTables& tables,
            const std::uint64_t* bitmap,
+           const cv::Range& rows,
            int scales,
            std::size_t stride,
            COUNT* out) {
+    // A vector of row dy has pixels of the rows from dy + reach to dy + reach + kBandRows - 1.
+    const auto firstRow = static_cast<std::size_t>(std::max(rows.start - kBandRows + 1, 0));
+    const auto endRow =
+        static_cast<std::size_t>(std::min(rows.end, 2 * tables.bitmap.reach + 1));
     for (int k = 0; k < scales; ++k, out += kLanes) {
         const auto& ring = tables.rings[static_cast<std::size_t>(k)];
+        const std::size_t first = ring.rowStarts[firstRow] / kAtOnce * kAtOnce;
+        const std::size_t end = (ring.rowStarts[endRow] + kAtOnce - 1) / kAtOnce * kAtOnce;
+        const std::int32_t* const offsets = ring.offsets.data();
         const int most = tables.inRing(k);
-        if (most < 64)
-            countRing<6>(ring, bitmap, stride, out);
+        if (first >= end)
+            for (std::size_t r = 0; r < kBandRows; ++r) std::fill_n(out + r * stride, kLanes, COUNT{0});
+        else if (most < 64)
+            countRing<6>(offsets + first, offsets + end, bitmap, stride, out);
         else if (most < 128)
-            countRing<7>(ring, bitmap, stride, out);
+            countRing<7>(offsets + first, offsets + end, bitmap, stride, out);
         else
-            countRing<8>(ring, bitmap, stride, out);
+            countRing<8>(offsets + first, offsets + end, bitmap, stride, out);
     }
+}
+
+template <class COUNT>
+void countLast(const TScaleTables& tables, int present, COUNT* rings) {
+    const hn::CappedTag<COUNT, kLanes> d;
+    constexpr int n = static_cast<int>(hn::MaxLanes(d));
+    const int ofBin = tables.scales() * kLanes;
+    for (int k = 0; k < tables.scales(); ++k)
+        for (int x = 0; x < kLanes; x += n) {
+            COUNT* ring = rings + k * kLanes + x;
+            auto left = hn::Set(d, static_cast<COUNT>(tables.inRing(k)));
+            for (int b = 0; b + 1 < present; ++b, ring += ofBin)
+                left = hn::Sub(left, hn::Load(d, ring));
+            hn::Store(left, d, ring);
+        }
 }
 
 // ---------------------------------------------------------------- searching
@@ -300,18 +338,47 @@ class CLogs {
     VFloats m_constant;
 };
 
+/// Orders the bins by the first scale at which they occur about the centres of a part.
+template <class COUNT>
+void orderBins(const TScaleTables& tables, const COUNT* rings, TPart& part) {
+    part.firstScale.resize(static_cast<std::size_t>(part.present));
+    part.order.resize(static_cast<std::size_t>(part.present));
+    const hn::CappedTag<COUNT, kPart> d;
+    constexpr int n = static_cast<int>(hn::MaxLanes(d));
+    for (int b = 0; b < part.present; ++b, rings += tables.scales() * kLanes) {
+        int k = 0;
+        const auto occurs = [&] {
+            auto any = hn::Zero(d);
+            for (int x = 0; x < kPart; x += n) any = hn::Or(any, hn::Load(d, rings + k * kLanes + x));
+            return !hn::AllTrue(d, hn::Eq(any, hn::Zero(d)));
+        };
+        while (k < tables.scales() && !occurs()) ++k;
+        part.firstScale[static_cast<std::size_t>(b)] = k;
+        part.order[static_cast<std::size_t>(b)] = b;
+    }
+    std::sort(part.order.begin(), part.order.end(), [&part](int a, int b) {
+        return part.firstScale[static_cast<std::size_t>(a)] < part.firstScale[static_cast<std::size_t>(b)];
+    });
+}
+
 /// Counts, changes and entropies of all scales.
 template <class COUNT>
 void sumAll(const TScaleTables& tables, const COUNT* rings, TPart& part) {
     const D16 d16;
     const DInt di;
     const DFloat df;
+    orderBins(tables, rings, part);
     const int scales = tables.scales();
     const int ofBin = scales * kLanes;
+    int active = 0;
     for (int k = 0; k < scales; ++k) {
+        const auto firstOf = [&part](int i) {
+            return part.firstScale[static_cast<std::size_t>(part.order[static_cast<std::size_t>(i)])];
+        };
+        while (active < part.present && firstOf(active) <= k) ++active;
         const auto s = static_cast<std::size_t>(tables.sMin + k);
         const int area = tables.area[s];
-        const int inRing = k > 0 ? area - tables.area[s - 1] : 0;
+        const int inRing = k > 0 ? tables.inRing(k) : 0;
         const auto areas = hn::Set(di, area);
         const auto inRings = hn::Set(di, inRing);
         const auto both = hn::Set(di, (area & 0xffff) | -inRing * 65536);
@@ -322,10 +389,10 @@ void sumAll(const TScaleTables& tables, const COUNT* rings, TPart& part) {
             auto change1 = hn::Zero(di);
             auto sum0 = hn::Zero(df);
             auto sum1 = hn::Zero(df);
-            const COUNT* ring = rings + k * kLanes + x;
-            std::uint16_t* count = counts + x;
-            for (int b = 0; b < part.present; ++b, ring += ofBin, count += kPart) {
-                const auto r = ringOf(ring);
+            for (int i = 0; i < active; ++i) {
+                const int b = part.order[static_cast<std::size_t>(i)];
+                std::uint16_t* const count = counts + b * kPart + x;
+                const auto r = ringOf(rings + b * ofBin + k * kLanes + x);
                 auto n = r;
                 if (k > 0) n = hn::Add(n, hn::Load(d16, count - part.present * kPart));
                 hn::Store(n, d16, count);
@@ -336,6 +403,9 @@ void sumAll(const TScaleTables& tables, const COUNT* rings, TPart& part) {
                 sum0 = logs.addTo(sum0, hn::BitCast(di, hn::ShiftRight<16>(pairs0)));
                 sum1 = logs.addTo(sum1, hn::BitCast(di, hn::ShiftRight<16>(pairs1)));
             }
+            for (int i = active; i < part.present; ++i)
+                hn::Store(hn::Zero(d16), d16,
+                          counts + part.order[static_cast<std::size_t>(i)] * kPart + x);
             const auto factor = hn::Set(df, -1.0F / static_cast<float>(area));
             std::int32_t* const change = part.change.get() + k * kPart + x;
             float* const entropy = part.entropy.get() + k * kPart + x;
@@ -382,27 +452,51 @@ HWY_INLINE float marginOf(const TPart& part) {
     return 8e-5F + 1e-6F * static_cast<float>(part.present);
 }
 
-/// Marks scale k of the places from x on, if their entropies, and `allowed`, make them peaks.
-HWY_INLINE void mark(VFloats before,
-                     VFloats at,
-                     VFloats after,
-                     hn::Mask<DFloat> allowed,
-                     float margin,
-                     int k,
-                     int x,
-                     TPart& part) {
-    const D32 d;
-    const DFloat df;
-    const auto least = hn::Min(hn::Sub(at, before), hn::Sub(at, after));
-    const auto bit = hn::Set(d, 1U << (k % kInWord));
-    const auto store = [&](std::uint32_t* words, hn::Mask<DFloat> which) {
-        std::uint32_t* const word = words + k / kInWord * kPart + x;
-        const auto marks = hn::IfThenElseZero(hn::RebindMask(d, hn::And(which, allowed)), bit);
-        hn::Store(hn::Or(hn::Load(d, word), marks), d, word);
-    };
-    store(part.certain.get(), hn::Gt(least, hn::Set(df, margin)));
-    store(part.possible.get(), hn::Gt(least, hn::Set(df, -margin)));
-}
+/// Less than any entropy but 0, more than any estimate of 0 [bit].
+constexpr float kNone = 1e-4F;
+
+/** Collects the marks of the places from x on, in registers until a word is full or done. */
+class CMarks {
+ public:
+    CMarks(int x, TPart& part)
+        : m_x(x), m_margin(marginOf(part)), m_certain(hn::Zero(d)), m_possible(hn::Zero(d)), m_part(part) {}
+    ~CMarks() { store(); }
+    CMarks(const CMarks&) = delete;
+    CMarks& operator=(const CMarks&) = delete;
+
+    /// Scale k, which `allowed` may forbid, by the entropies at k - 1, k and k + 1.
+    HWY_INLINE void add(int k, VFloats before, VFloats at, VFloats after, hn::Mask<DFloat> allowed) {
+        const DFloat df;
+        if (k / kInWord != m_word) {
+            store();
+            m_certain = m_possible = hn::Zero(d);
+            m_word = k / kInWord;
+        }
+        const auto least = hn::Min(hn::Sub(at, before), hn::Sub(at, after));
+        const auto bit = hn::Set(d, 1U << (k % kInWord));
+        const auto some = hn::And(allowed, hn::Gt(at, hn::Set(df, kNone)));
+        const auto marked = [&](float above) {
+            const auto mask = hn::And(some, hn::Gt(least, hn::Set(df, above)));
+            return hn::IfThenElseZero(hn::RebindMask(d, mask), bit);
+        };
+        m_certain = hn::Or(m_certain, marked(m_margin));
+        m_possible = hn::Or(m_possible, marked(-m_margin));
+    }
+
+ private:
+    HWY_INLINE void store() {
+        hn::Store(m_certain, d, m_part.certain.get() + m_word * kPart + m_x);
+        hn::Store(m_possible, d, m_part.possible.get() + m_word * kPart + m_x);
+    }
+
+    static constexpr D32 d{};
+    int m_x;
+    int m_word{0};
+    float m_margin;
+    VWords m_certain;
+    VWords m_possible;
+    TPart& m_part;
+};
 
 template <class COUNT>
 void search(const TScaleTables& tables, const COUNT* rings, TPart& part) {
@@ -413,11 +507,15 @@ void search(const TScaleTables& tables, const COUNT* rings, TPart& part) {
     clearMarks(tables, part);
     const auto all = hn::FirstN(d, kFloats);
     for (int x = 0; x < kPart; x += kFloats) {
-        const float* entropy = part.entropy.get() + x;
+        CMarks marks(x, part);
+        const float* const entropy = part.entropy.get() + x;
+        auto before = hn::Load(d, entropy);
+        auto at = hn::Load(d, entropy + kPart);
         for (int k = 1; k + 1 < scales; ++k) {
-            entropy += kPart;
-            mark(hn::Load(d, entropy - kPart), hn::Load(d, entropy), hn::Load(d, entropy + kPart),
-                 all, marginOf(part), k, x, part);
+            const auto after = hn::Load(d, entropy + (k + 1) * kPart);
+            marks.add(k, before, at, after, all);
+            before = at;
+            at = after;
         }
     }
     // What ZipLower and ZipUpper do to the order of centres.
@@ -586,6 +684,7 @@ void searchAbove(const TScaleTables& tables,
     const auto highest = hn::Set(d, static_cast<float>(std::log2(part.present)) + 1e-4F);
     for (int x = 0; x < kPart; x += kFloats) {
         const float* const w = part.wBound.get() + x;
+        CMarks marks(x, part);
         int lastCandidate = 0;
         int entropiesTo = -1;  // scales whose entropies are known, of those last asked for
         for (int k = 1; k <= lastScale; ++k) {
@@ -599,8 +698,7 @@ void searchAbove(const TScaleTables& tables,
             const auto salient = hn::Ge(hn::Mul(wHere, hn::Add(at, hn::Set(d, 1e-4F))), least);
             if (hn::AllFalse(d, salient)) continue;
             lastCandidate = k;
-            mark(hn::Load(d, entropy - kPart), at, hn::Load(d, entropy + kPart), salient,
-                 marginOf(part), k, x, part);
+            marks.add(k, hn::Load(d, entropy - kPart), at, hn::Load(d, entropy + kPart), salient);
         }
         if (lastCandidate == 0) continue;
         computeChanges(tables, x, lastCandidate + 1, part);
@@ -610,7 +708,7 @@ void searchAbove(const TScaleTables& tables,
 
 template <class COUNT>
 TKernels<COUNT> kernels() {
-    return {fill, count<COUNT>, addOverlap<COUNT>, lastScale, search<COUNT>, searchAbove<COUNT>};
+    return {fill, count<COUNT>, countLast<COUNT>, addOverlap<COUNT>, lastScale, search<COUNT>, searchAbove<COUNT>};
 }
 
 }  // namespace HWY_NAMESPACE

@@ -25,6 +25,8 @@ struct TPart {
     TBuffer<float> entropy;         //!< [scale][place] about H [bit].
     TBuffer<float> wBound;          //!< [scale][place] at least W.
     TBuffer<double> w;              //!< [scale][place] W.
+    std::vector<int> firstScale;      //!< [present] at which the bin occurs about the centres.
+    std::vector<int> order;           //!< Of the bins, by first scale.
     TBuffer<std::uint32_t> certain;   //!< [word][place] bit s: a peak of entropy at scale s.
     TBuffer<std::uint32_t> possible;  //!< [word][place] bit s: a peak, or too close to tell.
     std::array<std::uint8_t, kPart> place{};  //!< Of each centre.
@@ -47,13 +49,18 @@ struct TKernels {
 
     /** How many pixels of a bin lie in each ring about the kLanes centres of kBandRows rows.
      * \param bitmap The bin's, from the band's first row on.
+     * \param rows Of the window, from the band's first on, that have pixels of the bin.
      * \param scales How many, from the smallest.
      * \param out [row][scale][lane], rows `stride` apart. */
     void (*count)(const TScaleTables& tables,
                   const std::uint64_t* bitmap,
+                  const cv::Range& rows,
                   int scales,
                   std::size_t stride,
                   COUNT* out){nullptr};
+
+    /// The last of the present bins, from the others. \param rings Of a row, [present][scale][lane].
+    void (*countLast)(const TScaleTables& tables, int present, COUNT* rings){nullptr};
 
     /** Adds what a bin has in common between ring and disc before, rounded down.
      * \param rings Result of `count`. \param overlap [row][scale][lane] */
