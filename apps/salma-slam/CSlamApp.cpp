@@ -154,7 +154,7 @@ void CSlamApp::run() {
     const TSeen seen = CPictureWork(m_config, m_log).run();
     noticeOfPictures(seen);
 
-    const appearance::CPatchMatcher matcher(m_config.matcher);
+    const appearance::CPatchMatcher matcher(m_config.matcher, m_config.regionMatcher);
     slam::CSalientEKF2D ekf(m_config.ekf, m_config.association,
                             [&](const observations::TPatch& a, const observations::TPatch& b) {
                                 return matcher.match(a, b).logLikelihoodRatio;

@@ -22,8 +22,10 @@ void forEachSection(CONFIG& c, VISITOR visitor) {
     visitor("selection", c.seeing.selection);
     visitor("border", c.seeing.border);
     visitor("rectification", c.seeing.rectification);
+    visitor("second_look", c.seeing.secondLook);
     visitor("descriptor", c.seeing.descriptor);
     visitor("matcher", c.matcher);
+    visitor("region_matcher", c.regionMatcher);
     visitor("association", c.association);
     visitor("ekf", c.ekf);
     visitor("odometry", c.odometry);

@@ -37,6 +37,7 @@ struct TSlamConfig {
     laser::TWallOdometryOptions wallOdometry;
     landmarks::TSeeingOptions seeing;
     appearance::TMatcherOptions matcher;
+    appearance::TRegionMatchOptions regionMatcher;
     association::TAssociationOptions association;
     slam::TEkfOptions ekf;
     slam::TOdometryOptions odometry;

@@ -5,107 +5,58 @@
 #include <algorithm>
 #include <cmath>
 
+#include "CAgreement.h"
 #include "likelihoodTable.h"
 #include "matchKeypoints.h"
+#include "matchRegions.h"
 
 namespace salma::appearance {
 namespace {
 
-using Keypoints = std::vector<observations::TKeypoint>;
+constexpr double kOpposite = mrpt::DEG2RAD(130.0);  // 65 deg to either side
 
-constexpr double kKeypointSlack = 2;  // one keypoint's scale and angle vary more than the patch's
-constexpr int kRefinements = 3;
+/// Direction of the robot from the patch, 0 straight in front of it [rad].
+double viewOf(const observations::TPatch& patch) {
+    const auto& pose = patch.pose.mean;
+    return mrpt::math::wrapToPi(std::atan2(-pose.y(), -pose.x()) - (pose.yaw() - M_PI_2));
+}
 
-/// Two sets of keypoints, and the pairs that may agree.
-class CAgreement {
- public:
-    CAgreement(const TMatcherOptions& options, const Keypoints& a, const Keypoints& b)
-        : m_options(options), m_a(a), m_b(b) {}
+/// Regions are comparable where both rectangles are nearly the same piece of wall: their contrast
+/// is that of the whole rectangle, and an extent gone wrong shows other regions.
+bool comparable(const observations::TPatch& a, const observations::TPatch& b, double least) {
+    const double common = std::min(a.width, b.width) * std::min(a.height, b.height);
+    return !a.regions.empty() && !b.regions.empty() &&
+           common >= least * std::max(a.width * a.height, b.width * b.height);
+}
 
-    /// Pairs whose own scale and angle fit metric, upright patches.
-    KeypointPairs upright(const KeypointPairs& pairs) const {
-        const double scale = kKeypointSlack * std::log(m_options.scaleTolerance);
-        const double turn = kKeypointSlack * m_options.rotationTolerance;
-        KeypointPairs kept;
-        for (const auto& p : pairs) {
-            const auto& a = m_a[p.first];
-            const auto& b = m_b[p.second];
-            if (std::abs(std::log(b.scale / a.scale)) <= scale &&
-                std::abs(mrpt::math::wrapToPi(b.angle - a.angle)) <= turn)
-                kept.push_back(p);
-        }
-        return kept;
-    }
-
-    /// Pairs that the similarity maps onto each other.
-    KeypointPairs following(const TSimilarity& s, const KeypointPairs& pairs) const {
-        const double c = s.scale * std::cos(s.rotation);
-        const double d = s.scale * std::sin(s.rotation);
-        KeypointPairs kept;
-        for (const auto& p : pairs) {
-            const auto& a = m_a[p.first];
-            const auto& b = m_b[p.second];
-            const double x = c * a.x - d * a.y + s.tx;
-            const double y = d * a.x + c * a.y + s.ty;
-            if (std::hypot(b.x - x, b.y - y) <= m_options.positionTolerance) kept.push_back(p);
-        }
-        return kept;
-    }
-
-    /// The shift of one pair that most pairs share.
-    TSimilarity commonShift(const KeypointPairs& pairs) const {
-        TSimilarity best;
-        std::size_t most = 0;
-        for (const auto& p : pairs) {
-            const TSimilarity shift{1, 0, m_b[p.second].x - m_a[p.first].x,
-                                    m_b[p.second].y - m_a[p.first].y};
-            const std::size_t n = following(shift, pairs).size();
-            if (n <= most) continue;
-            most = n;
-            best = shift;
-        }
-        return best;
-    }
-
-    /// Least squares; false if the pairs do not determine it or it is not near upright.
-    bool fit(const KeypointPairs& pairs, TSimilarity& s) const {
-        double ax = 0, ay = 0, bx = 0, by = 0;
-        for (const auto& p : pairs) {
-            ax += m_a[p.first].x, ay += m_a[p.first].y;
-            bx += m_b[p.second].x, by += m_b[p.second].y;
-        }
-        const auto n = static_cast<double>(pairs.size());
-        ax /= n, ay /= n, bx /= n, by /= n;
-        double dot = 0, cross = 0, spread = 0;
-        for (const auto& p : pairs) {
-            const double x = m_a[p.first].x - ax, y = m_a[p.first].y - ay;
-            const double u = m_b[p.second].x - bx, v = m_b[p.second].y - by;
-            dot += x * u + y * v;
-            cross += x * v - y * u;
-            spread += x * x + y * y;
-        }
-        if (!(spread > 0)) return false;
-        TSimilarity fitted;
-        fitted.scale = std::hypot(dot, cross) / spread;
-        fitted.rotation = std::atan2(cross, dot);
-        if (!(std::abs(std::log(fitted.scale)) <= std::log(m_options.scaleTolerance)) ||
-            !(std::abs(fitted.rotation) <= m_options.rotationTolerance))
-            return false;
-        const double c = fitted.scale * std::cos(fitted.rotation);
-        const double d = fitted.scale * std::sin(fitted.rotation);
-        fitted.tx = bx - c * ax + d * ay;
-        fitted.ty = by - d * ax - c * ay;
-        s = fitted;
-        return true;
-    }
-
- private:
-    const TMatcherOptions& m_options;
-    const Keypoints& m_a;
-    const Keypoints& m_b;
-};
+std::vector<TPointPair> centres(const observations::TPatch& a,
+                                const observations::TPatch& b,
+                                const std::vector<std::pair<std::size_t, std::size_t>>& pairs) {
+    std::vector<TPointPair> out;
+    out.reserve(pairs.size());
+    for (const auto& [i, j] : pairs)
+        out.push_back({a.regions[i].x, a.regions[i].y, b.regions[j].x, b.regions[j].y});
+    return out;
+}
 
 }  // namespace
+
+void TRegionMatchOptions::visit(config::COptionVisitor& v) {
+    using namespace config;
+    v.number("place_sigma_m", placeSigma, moreThan(0), "noise of a region's centre, beside");
+    v.number("place_sigma_scales", placeSigmaScales, atLeast(0), "this, times its radius");
+    v.number("log_scale_sigma", logScaleSigma, moreThan(0), "noise of the logarithm of a radius");
+    v.number("gate_quantile", gateQuantile, insideOf(0, 1),
+             "probability that a true pair passes the gate");
+    v.number("max_shift_m", maxShift, moreThan(0), "largest common shift along each axis");
+    v.number("strong", strong, between(0.01, 1),
+             "share of a patch's regions, the most salient, that counts");
+    v.number("correlation", correlation, between(-1, 1), "from which two regions look alike");
+    v.number("same_extent", sameExtent, between(0, 1),
+             "regions are compared if the smaller extent is this share of the larger");
+    v.number("support", support, between(0, 1),
+             "share of regions that must look alike before place alone counts");
+}
 
 void TMatcherOptions::visit(config::COptionVisitor& v) {
     using namespace config;
@@ -118,17 +69,30 @@ void TMatcherOptions::visit(config::COptionVisitor& v) {
     v.integer("min_matches", minMatches, atLeast(2), "fewer consistent matches score 0");
     v.integer("full_score_keypoints", fullScoreKeypoints, atLeast(1),
               "a patch with fewer keypoints cannot score 1");
+    v.number("regions_same_view", regionsSameView, between(0, 1),
+             "region score from which regions agree, for two views from one side");
+    v.number("regions_opposite_view", regionsOppositeView, between(0, 1),
+             "the same for views 130 deg apart; in between it falls evenly");
     v.number("duplicate_rate", duplicateRate, insideOf(0, 1),
              "share of other entities that look the same");
     v.numbers("score_knots", scoreKnots, between(0, 1), "ascending scores of the table");
     v.numbers("log_lr_knots", logLrKnots, anyNumber(),
               "log p(score|same) / p(score|other) at each, measured on distinct posters");
+    v.numbers("keypoint_score_knots", keypointScoreKnots, between(0, 1),
+              "the same for patches without regions");
+    v.numbers("keypoint_log_lr_knots", keypointLogLrKnots, anyNumber(), "and the ratios at each");
 }
 
-void TMatcherOptions::validate() const { checkTable(scoreKnots, logLrKnots, "matcher"); }
+void TMatcherOptions::validate() const {
+    checkTable(scoreKnots, logLrKnots, "matcher");
+    checkTable(keypointScoreKnots, keypointLogLrKnots, "matcher");
+}
 
-CPatchMatcher::CPatchMatcher(const TMatcherOptions& options) : m_options(options) {
+CPatchMatcher::CPatchMatcher(const TMatcherOptions& options,
+                             const TRegionMatchOptions& regionOptions)
+    : m_options(options), m_regionOptions(regionOptions) {
     m_options.validate();
+    m_regionOptions.validate();
 }
 
 double CPatchMatcher::logLikelihoodRatio(double score) const {
@@ -136,33 +100,50 @@ double CPatchMatcher::logLikelihoodRatio(double score) const {
     return withDuplicates(table, m_options.duplicateRate);
 }
 
-TPatchMatch CPatchMatcher::match(const observations::TPatch& a,
-                                 const observations::TPatch& b) const {
-    TPatchMatch out;
-    const auto least = static_cast<std::size_t>(m_options.minMatches);
-    const std::size_t fewer = std::min(a.keypoints.size(), b.keypoints.size());
-    if (fewer < least) return out;  // no evidence for or against
+void CPatchMatcher::matchKeypointsOf(const observations::TPatch& a,
+                                     const observations::TPatch& b,
+                                     TPatchMatch& out) const {
     const auto putative = matchKeypoints(a.keypoints, b.keypoints, m_options.ratio);
     out.putative = putative.size();
     const CAgreement agreement(m_options, a.keypoints, b.keypoints);
-    const auto upright = agreement.upright(putative);
-    out.similarity = agreement.commonShift(upright);
-    out.pairs = agreement.following(out.similarity, upright);
-    for (int i = 0; i < kRefinements && out.pairs.size() >= 3; ++i) {
-        TSimilarity refined;
-        if (!agreement.fit(out.pairs, refined)) break;
-        auto more = agreement.following(refined, upright);
-        if (more.size() < out.pairs.size()) break;
-        out.similarity = refined;
-        out.pairs = std::move(more);
-    }
-    out.consistent = out.pairs.size();
-    if (out.consistent >= least) {
-        const auto full = static_cast<std::size_t>(m_options.fullScoreKeypoints);
-        out.score =
-            static_cast<double>(out.consistent) / static_cast<double>(std::max(fewer, full));
-    }
-    out.logLikelihoodRatio = logLikelihoodRatio(out.score);
+    out.keypoints = agreement.agreeing(putative);
+    if (out.keypoints.size() < static_cast<std::size_t>(m_options.minMatches)) return;
+    const std::size_t fewer = std::min(a.keypoints.size(), b.keypoints.size());
+    const auto full = static_cast<std::size_t>(m_options.fullScoreKeypoints);
+    out.keypointScore =
+        static_cast<double>(out.keypoints.size()) / static_cast<double>(std::max(fewer, full));
+    out.relative = relativePose(agreement.points(out.keypoints));
+}
+
+void CPatchMatcher::matchRegionsOf(const observations::TPatch& a,
+                                   const observations::TPatch& b,
+                                   TPatchMatch& out) const {
+    auto agreement = matchRegions(m_regionOptions, a, b);
+    out.regionScore = agreement.score;
+    out.regions = std::move(agreement.pairs);
+    const double apart = std::min(1.0, out.viewDifference / kOpposite);
+    const double demanded =
+        m_options.regionsSameView * (1 - apart) + m_options.regionsOppositeView * apart;
+    out.regionsAgree = out.regionScore >= demanded;
+    if (!out.relative && out.regionsAgree) out.relative = relativePose(centres(a, b, out.regions));
+}
+
+TPatchMatch CPatchMatcher::match(const observations::TPatch& a,
+                                 const observations::TPatch& b) const {
+    TPatchMatch out;
+    out.viewDifference = std::abs(mrpt::math::wrapToPi(viewOf(a) - viewOf(b)));
+    const std::size_t fewer = std::min(a.keypoints.size(), b.keypoints.size());
+    const bool telling = fewer >= static_cast<std::size_t>(m_options.minMatches);
+    if (telling) matchKeypointsOf(a, b, out);
+    const bool withRegions = comparable(a, b, m_regionOptions.sameExtent);
+    if (withRegions) matchRegionsOf(a, b, out);
+    out.score = withRegions ? (out.keypointScore + out.regionScore) / 2 : out.keypointScore;
+    if (!telling) return out;  // no evidence for or against
+    out.logLikelihoodRatio =
+        withRegions ? logLikelihoodRatio(out.score)
+                    : withDuplicates(readTable(m_options.keypointScoreKnots,
+                                               m_options.keypointLogLrKnots, out.score),
+                                     m_options.duplicateRate);
     return out;
 }
 

@@ -7,8 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 #include <stdexcept>
+
+#include "sampleWall.h"
 
 namespace salma::appearance {
 namespace {
@@ -41,28 +42,6 @@ std::pair<double, double> coarsest(const CWallView& view, const TWallRectangle& 
         least = {std::min(least.first, here.first), std::min(least.second, here.second)};
     }
     return least;
-}
-
-/** Samples the rectangle on a grid of `size`.
- * The middle of the grid's first pixel lies half a pixel inside the rectangle. */
-cv::Mat sample(const cv::Mat& grey,
-               const CWallView& view,
-               const TWallRectangle& r,
-               const cv::Size& size) {
-    cv::Mat mapX(size, CV_32F);
-    cv::Mat mapY(size, CV_32F);
-    for (int row = 0; row < size.height; ++row) {
-        const double v = r.v1 - (row + 0.5) / size.height * (r.v1 - r.v0);
-        for (int col = 0; col < size.width; ++col) {
-            const double u = r.u0 + (col + 0.5) / size.width * (r.u1 - r.u0);
-            const auto pixel = view.toPixel(u, v);
-            mapX.at<float>(row, col) = pixel ? static_cast<float>(pixel->x) : -1.0F;
-            mapY.at<float>(row, col) = pixel ? static_cast<float>(pixel->y) : -1.0F;
-        }
-    }
-    cv::Mat out;
-    cv::remap(grey, out, mapX, mapY, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
-    return out;
 }
 
 cv::Size gridOf(const TWallRectangle& r, double pixelsPerMetre) {
@@ -173,15 +152,7 @@ TRectification CRectifier::rectify(const cv::Mat& grey,
     const double resolution =
         std::min(m_options.maxPixelsPerMetre, std::min(coarse.first, coarse.second));
     observations::TPatch patch;
-    const cv::Size size = gridOf(r, resolution);
-    // Sampled as finely as the picture is on each axis, then averaged: no aliasing.
-    const auto finest = view.pixelsPerMetreOfAxes((r.u0 + r.u1) / 2, (r.v0 + r.v1) / 2);
-    const auto times = [&](double finer) {
-        return static_cast<int>(std::ceil(finer / resolution));
-    };
-    const cv::Size fine(size.width * times(finest.first), size.height * times(finest.second));
-    cv::Mat picture = sample(grey, view, r, fine);
-    if (fine != size) cv::resize(picture, picture, size, 0, 0, cv::INTER_AREA);
+    const cv::Mat picture = sampleWall(grey, view, r, gridOf(r, resolution)).grey;
     patch.picture = mrpt::img::CImage(picture, mrpt::img::DEEP_COPY);
     patch.width = r.u1 - r.u0;
     patch.height = r.v1 - r.v0;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 #include "warpWall.h"
@@ -14,20 +13,10 @@ namespace {
 using appearance::CWallView;
 using appearance::TWallRectangle;
 using observations::TPatch;
-using observations::TSalientRegion;
 
 /// Limits of the resolution in which borders are sought [px/m]: finer than the upper one costs time
 /// and places no border better than to a centimetre.
 constexpr double kCoarsest = 20, kFinest = 150;
-
-/// Smallest rectangle of whole pixels around the quad, within the picture.
-cv::Rect boundingBox(const std::array<mrpt::math::TPoint2D, 4>& quad, const cv::Size& picture) {
-    std::vector<cv::Point2f> corners;
-    corners.reserve(quad.size());
-    for (const auto& p : quad)
-        corners.emplace_back(static_cast<float>(p.x), static_cast<float>(p.y));
-    return cv::boundingRect(corners) & cv::Rect({0, 0}, picture);
-}
 
 /// True if the laser sees a nearer wall just left or right of the rectangle: then that side is
 /// where the nearer wall ends, not the entity.
@@ -51,8 +40,6 @@ bool partlyHidden(const TWallRectangle& r,
 
 void TFrontEndOptions::visit(config::COptionVisitor& v) {
     v.flag("join_by_mser", joinByMser, "regions inside one maximally stable region are one entity");
-    v.number("second_y_min", secondYMin, config::atLeast(0),
-             "saliency threshold of the second look, inside the entity [nat]");
     v.integer("min_keypoints", minKeypoints, config::between(0, 10000),
               "patches with fewer keypoints are refused");
     v.number("min_size_m", minSize, config::moreThan(0), "smallest width and height of an entity");
@@ -75,6 +62,7 @@ CFrontEnd::CFrontEnd(const TSeeingOptions& options)
       m_selector(options.selection),
       m_border(options.border),
       m_rectifier(options.rectification),
+      m_secondLook(options.secondLook),
       m_descriptor(options.descriptor) {
     m_options.validate();
 }
@@ -124,7 +112,7 @@ std::optional<TPatch> CFrontEnd::landmarkOf(const TEntity& entity,
     patch.keypoints = m_descriptor.describe(patch);
     if (patch.keypoints.size() < static_cast<std::size_t>(m_options.minKeypoints))
         return refuse("too few keypoints");
-    patch.regions = secondLook(patch, view.grey);
+    patch.regions = m_secondLook.describe(view.grey, wall, *border);
     return std::move(rectified.patch);
 }
 
@@ -152,27 +140,6 @@ std::optional<TWallRectangle> CFrontEnd::borderOf(const TEntity& entity,
     return TWallRectangle{area.u0 + found->x / resolution.x, area.v1 - found->br().y / resolution.y,
                           area.u0 + found->br().x / resolution.x,
                           area.v1 - found->y / resolution.y};
-}
-
-std::vector<TSalientRegion> CFrontEnd::secondLook(const TPatch& patch, const cv::Mat& grey) const {
-    const cv::Rect box = boundingBox(patch.quad, grey.size());
-    // The detector has no centres within its largest scale of the border.
-    const int margin = m_saliency.options().scaleMax;
-    const cv::Rect wide =
-        cv::Rect(box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin) &
-        cv::Rect({0, 0}, grey.size());
-    auto regions =
-        m_clusterer->cluster(m_saliency.detect(grey(wide).clone(), m_options.secondYMin)).regions;
-    for (auto& region : regions) {
-        region.x += wide.x;
-        region.y += wide.y;
-    }
-    regions.erase(std::remove_if(regions.begin(), regions.end(),
-                                 [&](const TSalientRegion& r) {
-                                     return !box.contains(cv::Point2d(r.x, r.y));
-                                 }),
-                  regions.end());
-    return regions;
 }
 
 }  // namespace salma::landmarks

@@ -70,7 +70,7 @@ mrpt::opengl::CTexturedPlane::Ptr planeOf(const TPatch& patch) {
 
 }  // namespace
 
-std::uint8_t CObservationSalientLandmarks::serializeGetVersion() const { return 0; }
+std::uint8_t CObservationSalientLandmarks::serializeGetVersion() const { return 1; }
 
 void CObservationSalientLandmarks::serializeTo(mrpt::serialization::CArchive& out) const {
     io::writeText(out, sensorLabel);
@@ -85,7 +85,7 @@ void CObservationSalientLandmarks::serializeTo(mrpt::serialization::CArchive& ou
 
 void CObservationSalientLandmarks::serializeFrom(mrpt::serialization::CArchive& in,
                                                  std::uint8_t version) {
-    if (version > 0) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
+    if (version > 1) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
     sensorLabel = io::readText(in, "letters of a sensor label");
     in >> timestamp;
     cameraPose = io::readPose(in);
@@ -94,7 +94,7 @@ void CObservationSalientLandmarks::serializeFrom(mrpt::serialization::CArchive& 
     placeString = io::readPlace(in);
     landmarks.clear();
     const std::size_t count = io::readCount(in, io::kMaxLandmarks, "landmarks");
-    for (std::size_t i = 0; i < count; ++i) landmarks.push_back(io::readPatch(in));
+    for (std::size_t i = 0; i < count; ++i) landmarks.push_back(io::readPatch(in, version));
 }
 
 void CObservationSalientLandmarks::getSensorPose(CPose3D& pose) const { pose = cameraPose; }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "patchIo.h"
 
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 #include "recordIo.h"
@@ -60,6 +63,45 @@ std::vector<TKeypoint> readKeypoints(CArchive& in) {
     return keypoints;
 }
 
+/// The four corners in the picture to those of the patch [m].
+cv::Mat pictureToPatch(const TPatch& patch) {
+    const auto w = static_cast<float>(patch.width / 2);
+    const auto h = static_cast<float>(patch.height / 2);
+    const cv::Point2f metres[] = {{-w, h}, {w, h}, {w, -h}, {-w, -h}};
+    cv::Point2f pixels[4];
+    for (int i = 0; i < 4; ++i)
+        pixels[i] = {static_cast<float>(patch.quad[static_cast<std::size_t>(i)].x),
+                     static_cast<float>(patch.quad[static_cast<std::size_t>(i)].y)};
+    return cv::getPerspectiveTransform(pixels, metres);
+}
+
+/// Where a pixel lies on the patch.
+cv::Vec2d onPatch(const cv::Matx33d& H, double x, double y) {
+    const cv::Vec3d p = H * cv::Vec3d(x, y, 1);
+    return {p[0] / p[2], p[1] / p[2]};
+}
+
+/// A disc's area decides its scale: it is an ellipse on the patch.
+void toMetres(TSalientRegion& r, const cv::Matx33d& H) {
+    const cv::Vec2d centre = onPatch(H, r.x, r.y);
+    const cv::Vec2d right = onPatch(H, r.x + 1, r.y) - centre;
+    const cv::Vec2d down = onPatch(H, r.x, r.y + 1) - centre;
+    r.x = centre[0];
+    r.y = centre[1];
+    r.s *= std::sqrt(std::abs(right[0] * down[1] - right[1] * down[0]));
+}
+
+void regionsToMetres(TPatch& patch) {
+    const cv::Matx33d H = pictureToPatch(patch);
+    for (auto& region : patch.regions) {
+        toMetres(region, H);
+        if (!(std::isfinite(region.x + region.y + region.s) && region.s > 0)) {
+            patch.regions.clear();
+            return;
+        }
+    }
+}
+
 }  // namespace
 
 void writeCount(CArchive& out, std::size_t count, std::size_t limit) {
@@ -80,7 +122,7 @@ void writePatch(CArchive& out, const TPatch& patch) {
     for (const float bin : patch.texture) out << bin;
 }
 
-TPatch readPatch(CArchive& in) {
+TPatch readPatch(CArchive& in, std::uint8_t version) {
     TPatch patch;
     for (auto& corner : patch.quad) {
         corner.x = readFinite(in, "corner");
@@ -94,6 +136,7 @@ TPatch readPatch(CArchive& in) {
     patch.keypoints = readKeypoints(in);
     const std::size_t bins = readCount(in, kMaxElements, "bins of a texture");
     for (std::size_t i = 0; i < bins; ++i) patch.texture.push_back(readNumber<float>(in));
+    if (version == 0) regionsToMetres(patch);
     return patch;
 }
 

@@ -7,9 +7,13 @@
 
 namespace salma::observations::io {
 
-// Layout of version 0 of CObservationSalientLandmarks; a later version gets functions of its own.
 void writePatch(mrpt::serialization::CArchive& out, const TPatch& patch);
-TPatch readPatch(mrpt::serialization::CArchive& in);
+
+/** \param version Of CObservationSalientLandmarks. Version 0 held regions in pixels of the source
+ * picture; they are carried over to metres on the patch by its four corners. Where the corners are
+ * no quadrilateral, the regions are dropped: nothing compared them then. */
+TPatch readPatch(mrpt::serialization::CArchive& in, std::uint8_t version);
+
 void writePlace(mrpt::serialization::CArchive& out, const TPlaceString& place);
 TPlaceString readPlace(mrpt::serialization::CArchive& in);
 

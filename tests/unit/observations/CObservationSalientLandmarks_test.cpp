@@ -5,6 +5,7 @@
 #include <salma/observations/CLogReader.h>
 #include <salma/observations/registerClasses.h>
 
+#include <cmath>
 #include <cstring>
 #include <opencv2/core.hpp>
 #include <sstream>
@@ -64,7 +65,27 @@ TEST(CObservationSalientLandmarks, Version0StaysReadable) {
     const auto record =
         std::dynamic_pointer_cast<CObservationSalientLandmarks>(log.steps[0].observations.at(0));
     ASSERT_TRUE(record);
+    // Its regions were pixels: (30, 40) of a quad about 100 px x 61 px large, which shows
+    // 0.9 m x 0.6 m, lies 0.275 m left of the centre and 0.107 m above it.
+    auto& regions = record->landmarks[0].regions;
+    ASSERT_EQ(regions.size(), 2U);
+    EXPECT_NEAR(regions[0].x, -0.275, 0.005);
+    EXPECT_NEAR(regions[0].y, 0.107, 0.005);
+    EXPECT_NEAR(regions[0].s, 8 * std::sqrt(0.9 / 99.5 * 0.6 / 61), 0.001);
+    EXPECT_EQ(regions[1].Y, 2.125);
+    regions = test::exampleRecord()->landmarks[0].regions;
     test::expectExample(*record);
+}
+
+TEST(CObservationSalientLandmarks, RegionsOfVersion0WithoutAQuadAreDropped) {
+    auto example = test::exampleRecord();
+    example->landmarks[0].quad.fill({5, 5});
+    std::string bytes = test::bytesOf({example});
+    bytes[1 + std::strlen("salma::observations::CObservationSalientLandmarks")] = 0;
+    const auto record =
+        std::dynamic_pointer_cast<CObservationSalientLandmarks>(test::objectOf(bytes));
+    ASSERT_TRUE(record);
+    EXPECT_TRUE(record->landmarks[0].regions.empty());
 }
 
 TEST(CObservationSalientLandmarks, IsRegisteredUnderItsQualifiedName) {
@@ -99,8 +120,8 @@ TEST(CObservationSalientLandmarks, AnUnknownVersionIsRefused) {
     std::string bytes = test::bytesOf({test::exampleRecord()});
     const std::size_t version =
         1 + std::strlen("salma::observations::CObservationSalientLandmarks");
-    ASSERT_EQ(bytes.at(version), 0);
-    bytes[version] = 1;
+    ASSERT_EQ(bytes.at(version), 1);
+    bytes[version] = 2;
     EXPECT_THROW(test::objectOf(bytes), std::exception);
 }
 

@@ -5,11 +5,28 @@
 #include <salma/config/TStrictOptions.h>
 #include <salma/observations/TPatch.h>
 
+#include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
 namespace salma::appearance {
+
+/// Section [region_matcher] of config.ini.
+struct TRegionMatchOptions : public config::TStrictOptions<TRegionMatchOptions> {
+    double placeSigma{0.006};       //!< Noise of a region's centre between two views [m] ...
+    double placeSigmaScales{0.15};  //!< ... and this, times its radius.
+    double logScaleSigma{0.15};     //!< Noise of the logarithm of a radius.
+    double gateQuantile{0.99};      //!< Probability that a true pair passes the gate.
+    double maxShift{0.1};           //!< Largest common shift of two patches, along each axis [m].
+    double strong{0.4};             //!< This share of a patch's regions, the most salient, counts.
+    double correlation{0.75};       //!< From which two regions look alike.
+    double support{0.25};           //!< Share that must look alike before place alone counts.
+    double sameExtent{0.6};         //!< Common over larger area, from which regions are compared.
+
+    void visit(config::COptionVisitor& v);
+};
 
 /// Section [matcher] of config.ini.
 struct TMatcherOptions : public config::TStrictOptions<TMatcherOptions> {
@@ -18,11 +35,16 @@ struct TMatcherOptions : public config::TStrictOptions<TMatcherOptions> {
     double rotationTolerance{mrpt::DEG2RAD(15.0)};  //!< They agree in rotation within this [rad].
     double positionTolerance{0.04};                 //!< Matches agree on the shift within this [m].
     int minMatches{4};                              //!< Fewer consistent matches score 0.
-    int fullScoreKeypoints{20};  //!< A patch with fewer keypoints cannot score 1.
-    double duplicateRate{0.02};  //!< Share of other entities that look the same.
-    std::vector<double> scoreKnots{0, 0.1, 0.2, 0.3, 1};  //!< Scores, ascending from 0 to 1.
-    std::vector<double> logLrKnots{-3, 0, 1.4, 5.2,
-                                   5.2};  //!< log p(score|same)/p(score|other) at each.
+    int fullScoreKeypoints{20};       //!< A patch with fewer keypoints cannot score 1.
+    double regionsSameView{0.5};      //!< Region score from which regions agree, seen alike ...
+    double regionsOppositeView{0.4};  //!< ... and seen from directions 130 deg apart.
+    double duplicateRate{0.02};       //!< Share of other entities that look the same.
+    /// Scores, ascending from 0 to 1, and log p(score|same)/p(score|other) at each.
+    std::vector<double> scoreKnots{0, 0.1, 0.15, 0.25, 0.35, 0.45, 1};
+    std::vector<double> logLrKnots{-3, -2.5, -1, 1.2, 3, 5.2, 5.2};
+    /// The same for patches without regions.
+    std::vector<double> keypointScoreKnots{0, 0.1, 0.2, 0.3, 1};
+    std::vector<double> keypointLogLrKnots{-3, 0, 1.4, 5.2, 5.2};
 
     void visit(config::COptionVisitor& v);
     void validate() const;
@@ -35,45 +57,68 @@ struct TSimilarity {
     double tx{0}, ty{0};  //!< [m]
 };
 
-/// How much two patches look like the same piece of wall.
-struct TPatchMatch {
-    double score{0};               //!< In [0, 1].
-    double logLikelihoodRatio{0};  //!< log p(score | same entity) / p(score | another one).
-    std::size_t putative{0};       //!< Keypoints that passed ratio test and mutual test.
-    std::size_t consistent{0};     //!< Of these, agreeing on `similarity`.
-    TSimilarity similarity;        //!< Only meaningful if `consistent` is not 0.
-    std::vector<std::pair<std::size_t, std::size_t>> pairs;  //!< The consistent: index in a, in b.
+/** Where patch a lies on patch b: the same wall, so in two dimensions. Coordinates are those of the
+ * patch frames p (u right, v up, origin at the centre of each rectangle). */
+struct TRelativePose {
+    TSimilarity similarity;  //!< From the frame of a to that of b.
+    /// Of (tx, ty, rotation, log scale) [m, m, rad, -], from the spread of the pairs about the fit.
+    Eigen::Matrix4d covariance{Eigen::Matrix4d::Zero()};
+    std::size_t pairs{0};  //!< Pairs that it rests on.
 };
 
-/** Compares the keypoints of two patches.
+/// How much two patches look like the same piece of wall.
+struct TPatchMatch {
+    double score{0};               //!< In [0, 1]: mean of both scores, or the keypoints' alone.
+    double logLikelihoodRatio{0};  //!< log p(score | same entity) / p(score | another one).
+    double keypointScore{0};       //!< In [0, 1].
+    double regionScore{0};         //!< In [0, 1].
+    bool regionsAgree{false};      //!< The region score is above what the two views demand.
+    double viewDifference{0};      //!< Between the directions of the two views [rad].
+    std::size_t putative{0};       //!< Keypoints that passed ratio test and mutual test.
+    std::vector<std::pair<std::size_t, std::size_t>> keypoints;  //!< Agreeing: index in a, in b.
+    std::vector<std::pair<std::size_t, std::size_t>> regions;    //!< Matched: index in a, in b.
+    /// From the keypoints if they score, else from the regions if those agree.
+    std::optional<TRelativePose> relative;
+};
+
+/** Compares the keypoints and the salient regions of two patches.
  *
- * Ratio test and mutual nearest neighbours, then agreement on one similarity whose scale is near 1
- * and whose rotation is near 0, since patches are metric and upright.
- * score = consistent / max(smaller keypoint count, `full_score_keypoints`), 0 below `min_matches`.
- * A patch with fewer than `min_matches` keypoints says nothing: score 0, log likelihood ratio 0.
+ * Keypoints: ratio test and mutual nearest neighbours, then agreement on one similarity whose scale
+ * is near 1 and whose rotation is near 0, since patches are metric and upright.
+ * Score = agreeing / max(smaller keypoint count, `full_score_keypoints`), 0 below `min_matches`.
+ * Regions: pairs by Mahalanobis distance of (x, y, log s) after the best common shift, one to one;
+ * score = matches / mean count, each over the most salient regions. Regions agree from a score on
+ * that falls with the angle between the two views.
+ * Without regions, or if the extents of the patches differ much, keypoints alone decide.
+ * A patch with fewer than `min_matches` keypoints says nothing: log likelihood ratio 0.
  *
- * The default table was measured on ten paintings and photographs, 0.8 m high, rendered on a wall
- * from 1 to 6 m and up to 65 deg to either side, with blur up to 1.5 px, noise of 2 to 6 grey
- * levels, gain 0.6 to 1.2, borders off by 5 cm, and the wall off by 2 cm and 2 deg: 280 pairs of
- * the same, 576 of different ones. Same: 2 % score below 0.2, 10 % below 0.3, none 0. Different:
- * all score 0, so p(score > 0 | other) < 3/576 with 95 %. Five per cent of real views are taken to
- * be spoilt (glare, people in front) and to score 0, hence -3 there. On ten further pictures 0.4 %
- * of the same and all of the different pairs score 0. Source: D. Lowe, IJCV 60(2), 2004 (ratio
- * test); agreement: own. */
+ * How the tables were measured, and what they are worth: docs/recognition.md.
+ * Source: D. Lowe, IJCV 60(2), 2004 (ratio test); K.-L. Ho, transfer report, Oxford 2004, section
+ * 4.6 (regions); agreement and correlation of what regions show: own. */
 class CPatchMatcher {
  public:
     /// \throw std::invalid_argument if the options contradict each other.
-    explicit CPatchMatcher(const TMatcherOptions& options = {});
+    explicit CPatchMatcher(const TMatcherOptions& options = {},
+                           const TRegionMatchOptions& regionOptions = {});
 
     TPatchMatch match(const observations::TPatch& a, const observations::TPatch& b) const;
 
-    /// The table: monotone, piecewise linear, at most -log(duplicate_rate).
+    /// The table for patches with regions: monotone, piecewise linear, at most
+    /// -log(duplicate_rate).
     double logLikelihoodRatio(double score) const;
 
     const TMatcherOptions& options() const { return m_options; }
 
  private:
+    void matchKeypointsOf(const observations::TPatch& a,
+                          const observations::TPatch& b,
+                          TPatchMatch& out) const;
+    void matchRegionsOf(const observations::TPatch& a,
+                        const observations::TPatch& b,
+                        TPatchMatch& out) const;
+
     TMatcherOptions m_options;
+    TRegionMatchOptions m_regionOptions;
 };
 
 }  // namespace salma::appearance

@@ -3,6 +3,7 @@
 
 #include <salma/appearance/CPatchDescriptor.h>
 #include <salma/appearance/CRectifier.h>
+#include <salma/appearance/CRegionDescriptor.h>
 #include <salma/landmarks/CBorderFinder.h>
 #include <salma/landmarks/CEntitySelector.h>
 #include <salma/laser/TLine.h>
@@ -22,7 +23,6 @@ namespace salma::landmarks {
 /// Section [front_end] of config.ini.
 struct TFrontEndOptions : public config::TStrictOptions<TFrontEndOptions> {
     bool joinByMser{true};    //!< Regions inside one maximally stable region make one entity.
-    double secondYMin{0.8};   //!< Threshold of the second look, inside the entity [nat].
     int minKeypoints{12};     //!< Patches with fewer say too little to be recognised.
     double minSize{0.2};      //!< Smallest width and height of an entity [m].
     double maxSize{2.5};      //!< Largest [m].
@@ -43,6 +43,7 @@ struct TSeeingOptions {
     TSelectionOptions selection;
     TBorderOptions border;
     appearance::TRectificationOptions rectification;
+    appearance::TSecondLookOptions secondLook;
     appearance::TDescriptorOptions descriptor;
 };
 
@@ -82,8 +83,6 @@ class CFrontEnd {
     std::optional<appearance::TWallRectangle> borderOf(const TEntity& entity,
                                                        const appearance::CWallView& wall,
                                                        const cv::Mat& grey) const;
-    std::vector<observations::TSalientRegion> secondLook(const observations::TPatch& patch,
-                                                         const cv::Mat& grey) const;
 
     TFrontEndOptions m_options;
     saliency::CScaleSaliency m_saliency;
@@ -92,6 +91,7 @@ class CFrontEnd {
     CEntitySelector m_selector;
     CBorderFinder m_border;
     appearance::CRectifier m_rectifier;
+    appearance::CRegionDescriptor m_secondLook;
     appearance::CPatchDescriptor m_descriptor;
 };
 

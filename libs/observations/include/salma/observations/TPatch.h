@@ -36,7 +36,8 @@ struct TPatch {
     double pixelsPerMetre{0};  //!< Resolution of `picture` [px/m].
     mrpt::img::CImage
         picture;  //!< Grey, first row at the top; owned, never a view of another image.
-    std::vector<TSalientRegion> regions;  //!< In the source picture [px].
+    /// In the patch frame: x along u, y along v, s in metres [m]. Most salient first.
+    std::vector<TSalientRegion> regions;
     std::vector<TKeypoint> keypoints;
     std::vector<float> texture;  //!< Histogram of the wall around the entity; empty: not described.
     double incidence{

@@ -3,7 +3,8 @@
 
 namespace salma::observations {
 
-/** A salient region of a picture: Ho's six numbers.
+/** A salient region: Ho's six numbers. Place and scale are pixels of a picture; those of a TPatch
+ * are metres in its frame, y upwards.
  * Source: T. Kadir and M. Brady, "Saliency, scale and image description", IJCV 45(2), 2001. */
 struct TSalientRegion {
     double x{0};  //!< Centre, column [px]; the centre of the first pixel is 0.
