@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "CNeighbourGrid.h"
+#include "CNearestNeighbours.h"
 #include "CPlaceGrid.h"
 #include "rankedPeaks.h"
 
@@ -25,28 +25,37 @@ struct TCluster {
     double variance{0};  // [px^2]
 };
 
-TCluster clusterOf(const std::vector<CNeighbourGrid::TNeighbour>& members,
+TCluster clusterOf(const std::vector<std::size_t>& members,
                    const std::vector<TPlaceAndScale>& points) {
     TCluster cluster;
     const auto n = static_cast<double>(members.size());
-    for (const auto& m : members)
-        for (std::size_t axis = 0; axis < 3; ++axis) cluster.mean[axis] += points[m.index][axis];
+    for (const std::size_t m : members)
+        for (std::size_t axis = 0; axis < 3; ++axis) cluster.mean[axis] += points[m][axis];
     for (double& coordinate : cluster.mean) coordinate /= n;
-    for (const auto& m : members) cluster.variance += distance2(points[m.index], cluster.mean);
+    for (const std::size_t m : members) cluster.variance += distance2(points[m], cluster.mean);
     cluster.variance /= n;
     return cluster;
 }
 
-/// The cluster of each point, whatever becomes of it.
-std::vector<TCluster> clustersOf(const std::vector<TPlaceAndScale>& points, std::size_t count) {
-    const CNeighbourGrid grid(points, count);
+/// The cluster of each point, whatever becomes of it. Points are looked at in the order of
+/// `places`.
+std::vector<TCluster> clustersOf(const std::vector<TPlaceAndScale>& points,
+                                 const std::vector<std::size_t>& places,
+                                 std::size_t count) {
+    CNearestNeighbours nearest(points, count);
     std::vector<TCluster> clusters(points.size());
-    std::vector<CNeighbourGrid::TNeighbour> members;
-    for (const std::size_t i : grid.byPlace()) {  // neighbours share what the processor has loaded
-        grid.nearest(points[i], members);
-        clusters[i] = clusterOf(members, points);
-    }
+    for (const std::size_t i : places) clusters[i] = clusterOf(nearest.of(points[i]), points);
     return clusters;
+}
+
+/// Ranks in the order of the peaks' own list: the detector's goes row by row, so that neighbours
+/// follow each other and meet in the processor's cache.
+std::vector<std::size_t> byPlace(const std::vector<TRankedPeak>& ranked, std::size_t peaks) {
+    constexpr auto kNone = static_cast<std::size_t>(-1);
+    std::vector<std::size_t> ranks(peaks, kNone);
+    for (std::size_t i = 0; i < ranked.size(); ++i) ranks[ranked[i].index] = i;
+    ranks.erase(std::remove(ranks.begin(), ranks.end(), kNone), ranks.end());
+    return ranks;
 }
 
 /// The regions so far.
@@ -92,7 +101,7 @@ TClusteredRegions CKadirClusterer::cluster(const std::vector<TSalientRegion>& pe
         const TSalientRegion& peak = peaks[r.index];
         points.push_back({peak.x, peak.y, peak.s});
     }
-    const auto clusters = clustersOf(points, count);
+    const auto clusters = clustersOf(points, byPlace(ranked, peaks.size()), count);
     CRegions kept(boxOf(ranked, peaks));
     for (std::size_t i = 0; i < clusters.size(); ++i) {
         const TCluster& cluster = clusters[i];

@@ -179,7 +179,7 @@ TEST(CKadirClusterer, AgreesWithTheDefinitionOnPlacesOfAnyKind) {
         expectSame(CKadirClusterer(o).cluster(peaks), referenceCluster(peaks, o));
     }
     const auto o = options(3, 0);
-    const TPeaks one(5, peak(7, 7, 7, 1));
+    const TPeaks one(300, peak(7, 7, 7, 1));
     expectSame(CKadirClusterer(o).cluster(one), referenceCluster(one, o));
 }
 
