@@ -21,7 +21,9 @@ CSaliencyTile<COUNT>::CSaliencyTile(const TScaleTables& tables, const TKernels<C
       m_bitmaps(static_cast<std::size_t>(tables.bins)),
       m_perRow(static_cast<std::size_t>(tables.bins)),
       m_overlap(hwy::AllocateAligned<std::uint16_t>(kBandRows * m_ofBin)),
-      m_part(tables) {}
+      m_part(tables),
+      m_candidates(static_cast<std::size_t>(kPart * m_scales) + kTogether),
+      m_peaks(m_candidates.size()) {}
 
 template <class COUNT>
 TTilePeaks CSaliencyTile<COUNT>::detect(const cv::Mat& bins,
@@ -99,9 +101,7 @@ template <class COUNT>
 void CSaliencyTile<COUNT>::countBin(std::size_t present, int row, int scales) {
     const std::size_t bin = m_present[present];
     const auto window = m_perRow[bin].begin() + row;
-    const auto end = m_perRow[bin].end() - window < kBandRows + 2 * m_tables.sMax
-                         ? m_perRow[bin].end()
-                         : window + kBandRows + 2 * m_tables.sMax;
+    const auto end = window + std::min<std::ptrdiff_t>(m_perRow[bin].end() - window, bandWindow());
     const auto occurs = [](int pixels) { return pixels > 0; };
     const auto first = std::find_if(window, end, occurs);
     const auto last = std::find_if(std::make_reverse_iterator(end),
@@ -112,10 +112,27 @@ void CSaliencyTile<COUNT>::countBin(std::size_t present, int row, int scales) {
 }
 
 template <class COUNT>
+std::vector<std::size_t> CSaliencyTile<COUNT>::byPixels(int row) const {
+    std::vector<std::pair<int, std::size_t>> order;
+    for (std::size_t i = 0; i < m_present.size(); ++i) {
+        const auto& perRow = m_perRow[m_present[i]];
+        const auto first = perRow.begin() + row;
+        const auto rows = std::min<std::ptrdiff_t>(perRow.end() - first, bandWindow());
+        order.emplace_back(-std::accumulate(first, first + rows, 0), i);
+    }
+    std::sort(order.begin(), order.end());
+    std::vector<std::size_t> sorted;
+    for (const auto& bin : order) sorted.push_back(bin.second);
+    return sorted;
+}
+
+template <class COUNT>
 void CSaliencyTile<COUNT>::countAll(int row) {
-    for (std::size_t i = 0; i + 1 < m_present.size(); ++i) countBin(i, row, m_scales);
+    const std::size_t most = byPixels(row).front();
+    for (std::size_t i = 0; i < m_present.size(); ++i)
+        if (i != most) countBin(i, row, m_scales);
     for (std::size_t r = 0; r < kBandRows; ++r)
-        m_kernels.countLast(m_tables, static_cast<int>(m_present.size()),
+        m_kernels.countRest(m_tables, static_cast<int>(m_present.size()), static_cast<int>(most),
                             m_rings.get() + r * m_present.size() * m_ofBin);
 }
 
@@ -135,19 +152,14 @@ std::vector<std::uint16_t> CSaliencyTile<COUNT>::leastChanges() const {
 
 template <class COUNT>
 void CSaliencyTile<COUNT>::countNeeded(const cv::Size& centres, int row) {
-    std::vector<std::pair<int, std::size_t>> order;  // fewer pixels later
-    for (std::size_t i = 0; i < m_present.size(); ++i) {
-        const auto first = m_perRow[m_present[i]].begin() + row;
-        order.emplace_back(-std::accumulate(first, first + centres.height + 2 * m_tables.sMax, 0), i);
-    }
-    std::sort(order.begin(), order.end());
+    const auto order = byPixels(row);
     const auto least = leastChanges();
     const std::size_t ofRow = m_present.size() * m_ofBin;
     std::fill_n(m_overlap.get(), kBandRows * m_ofBin, std::uint16_t{0});
     int scales = m_scales;
     for (std::size_t i = 0; i < order.size() && scales > 0; ++i) {
-        countBin(order[i].second, row, scales);
-        m_kernels.addOverlap(m_tables, m_rings.get() + order[i].second * m_ofBin, scales, ofRow,
+        countBin(order[i], row, scales);
+        m_kernels.addOverlap(m_tables, m_rings.get() + order[i] * m_ofBin, scales, ofRow,
                              m_overlap.get());
         if (i % 2 == 0 && i + 1 < order.size()) continue;
         int last = 0;
@@ -176,35 +188,39 @@ void CSaliencyTile<COUNT>::searchPart(int bandRow, int x) {
 
 template <class COUNT>
 void CSaliencyTile<COUNT>::emitPeaks(int firstColumn, int count, std::vector<TPeak>& found) {
-    findCandidates(count);
-    const std::size_t candidates = m_candidates.size();
-    m_candidates.resize((candidates + kTogether - 1) / kTogether * kTogether, {0, 1});
+    const std::size_t candidates = findCandidates(count);
+    std::fill_n(m_candidates.begin() + static_cast<std::ptrdiff_t>(candidates), kTogether,
+                TCandidate{0, 1});
     std::array<double, kTogether> h{};
+    std::size_t peaks = 0;
     for (std::size_t i = 0; i < candidates; ++i) {
         if (i % kTogether == 0) computeEntropies(&m_candidates[i], h.data());
         const auto& c = m_candidates[i];
         const double w = m_part.w[c.k * kPart + m_part.place[static_cast<std::size_t>(c.x)]];
-        if (h[i % kTogether] * w >= m_yMin)
-            found.push_back({static_cast<std::uint16_t>(firstColumn + c.x),
-                             static_cast<std::uint16_t>(m_tables.sMin + c.k), h[i % kTogether], w});
+        m_peaks[peaks] = {static_cast<std::uint16_t>(firstColumn + c.x),
+                          static_cast<std::uint16_t>(m_tables.sMin + c.k), h[i % kTogether], w};
+        peaks += h[i % kTogether] * w >= m_yMin ? 1 : 0;
     }
+    found.insert(found.end(), m_peaks.begin(), m_peaks.begin() + static_cast<std::ptrdiff_t>(peaks));
 }
 
 template <class COUNT>
-void CSaliencyTile<COUNT>::findCandidates(int count) {
-    m_candidates.clear();
+std::size_t CSaliencyTile<COUNT>::findCandidates(int count) {
+    TCandidate* next = m_candidates.data();
+    const int scales = m_scales;
     for (int x = 0; x < count; ++x) {
         const int place = m_part.place[static_cast<std::size_t>(x)];
-        for (int word = 0; word * kInWord < m_scales; ++word) {
-            const std::uint32_t certain = m_part.certain[word * kPart + place];
-            for (std::uint32_t left = m_part.possible[word * kPart + place]; left != 0;
-                 left &= left - 1) {
+        for (int first = 0; first < scales; first += kInWord) {
+            const int word = first / kInWord * kPart + place;
+            const std::uint32_t certain = m_part.certain[word];
+            for (std::uint32_t left = m_part.possible[word]; left != 0; left &= left - 1) {
                 const int bit = __builtin_ctz(left);
-                const int k = word * kInWord + bit;
-                if ((certain >> bit & 1) != 0 || isPeak(k, x)) m_candidates.push_back({x, k});
+                *next = {x, first + bit};
+                next += (certain >> bit & 1) != 0 || isPeak(first + bit, x) ? 1 : 0;
             }
         }
     }
+    return static_cast<std::size_t>(next - m_candidates.data());
 }
 
 template <class COUNT>

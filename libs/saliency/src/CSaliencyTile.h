@@ -45,6 +45,9 @@ class CSaliencyTile {
     void detectBand(const cv::Rect& centres, int row, TTilePeaks& found);
     /// Counts a bin in the band that begins with `row`, up to a number of scales.
     void countBin(std::size_t present, int row, int scales);
+    int bandWindow() const { return kBandRows + 2 * m_tables.sMax; }
+    /// Indices of the present bins, that with most pixels in the band's window first.
+    std::vector<std::size_t> byPixels(int row) const;
     void countAll(int row);
     /** Counts bins, the most frequent first, only as long and as far as there can be a peak.
      * \return The last scale that can have one, for each row and part; 0 if none can. */
@@ -53,7 +56,8 @@ class CSaliencyTile {
     void searchPart(int bandRow, int x);
     /// Peaks of a part of which `count` centres exist, the first in `firstColumn`.
     void emitPeaks(int firstColumn, int count, std::vector<TPeak>& found);
-    void findCandidates(int count);
+    /// Peaks of entropy of a part, into m_candidates. \return How many.
+    std::size_t findCandidates(int count);
     bool isPeak(int k, int x) const;
     double entropy(int k, int x) const;
     /// H of several candidates at once: one would wait for its own additions.
@@ -75,7 +79,8 @@ class CSaliencyTile {
     hwy::AlignedFreeUniquePtr<std::uint16_t[]> m_overlap;  //!< [band row][scale][lane]
     int m_lastScales[kBandRows][kLanes / kPart]{};  //!< The last that can have a peak, or 0.
     TPart m_part;
-    std::vector<TCandidate> m_candidates;  //!< Peaks of entropy of the part, by centre, scale.
+    std::vector<TCandidate> m_candidates;  //!< Peaks of entropy of a part, by centre, scale.
+    std::vector<TPeak> m_peaks;            //!< Those of them that are peaks above the threshold.
 };
 
 }  // namespace salma::saliency

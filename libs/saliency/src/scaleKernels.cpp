@@ -266,17 +266,17 @@ void count(const TScaleTables& tables,
 }
 
 template <class COUNT>
-void countLast(const TScaleTables& tables, int present, COUNT* rings) {
+void countRest(const TScaleTables& tables, int present, int which, COUNT* rings) {
     const hn::CappedTag<COUNT, kLanes> d;
     constexpr int n = static_cast<int>(hn::MaxLanes(d));
     const int ofBin = tables.scales() * kLanes;
     for (int k = 0; k < tables.scales(); ++k)
         for (int x = 0; x < kLanes; x += n) {
-            COUNT* ring = rings + k * kLanes + x;
-            auto left = hn::Set(d, static_cast<COUNT>(tables.inRing(k)));
-            for (int b = 0; b + 1 < present; ++b, ring += ofBin)
-                left = hn::Sub(left, hn::Load(d, ring));
-            hn::Store(left, d, ring);
+            const COUNT* ring = rings + k * kLanes + x;
+            auto rest = hn::Set(d, static_cast<COUNT>(tables.inRing(k)));
+            for (int b = 0; b < present; ++b, ring += ofBin)
+                if (b != which) rest = hn::Sub(rest, hn::Load(d, ring));
+            hn::Store(rest, d, rings + which * ofBin + k * kLanes + x);
         }
 }
 
@@ -417,26 +417,36 @@ void sumAll(const TScaleTables& tables, const COUNT* rings, TPart& part) {
     }
 }
 
-/** W of places first..first+count-1 at scales 1..lastScale-1, from their changes up to
+/** W of `count` places from `first` on at scales 1..lastScale-1, from their changes up to
  * lastScale. The order of operations is part of the result. */
-HWY_INLINE void computeW(const TScaleTables& tables, int first, int count, int lastScale, TPart& part) {
+HWY_INLINE void computeW(
+    const TScaleTables& tables, int first, int count, int lastScale, TPart& part) {
     const DDouble d;
     const hn::Rebind<std::int32_t, DDouble> di;
+    constexpr int kChains = 4;  // each step waits for the one before
     const auto third = hn::Set(d, 1.0 / 3.0);
-    for (int x = first; x < first + count; x += kDoubles) {
-        const auto dAt = [&](int k) {
-            const auto change = hn::Load(di, part.change.get() + k * kPart + x);
-            return hn::Mul(hn::PromoteTo(d, change),
+    for (int begin = first; begin < first + count; begin += kChains * kDoubles) {
+        const int chains = std::min(kChains, (first + count - begin) / kDoubles);
+        const auto dAt = [&](int k, int chain) {
+            const std::int32_t* const change = part.change.get() + k * kPart + begin;
+            return hn::Mul(hn::PromoteTo(d, hn::Load(di, change + chain * kDoubles)),
                            hn::Set(d, tables.dFactor[static_cast<std::size_t>(tables.sMin + k)]));
         };
-        auto now = dAt(1);
-        auto smoothed = now;  // D(sMin) is D(sMin + 1)
+        hn::Vec<DDouble> now[kChains];
+        hn::Vec<DDouble> smoothed[kChains];
+        for (int i = 0; i < chains; ++i) smoothed[i] = now[i] = dAt(1, i);  // D(sMin) is D(sMin+1)
         for (int k = 1; k < lastScale; ++k) {
-            const auto next = dAt(k + 1);
-            smoothed = tables.smooth ? hn::Mul(hn::Add(hn::Add(smoothed, now), next), third) : now;
-            now = next;
-            const auto factor = tables.wFactor[static_cast<std::size_t>(tables.sMin + k)];
-            hn::Store(hn::Mul(smoothed, hn::Set(d, factor)), d, part.w.get() + k * kPart + x);
+            const auto factor =
+                hn::Set(d, tables.wFactor[static_cast<std::size_t>(tables.sMin + k)]);
+            double* const w = part.w.get() + k * kPart + begin;
+            for (int i = 0; i < chains; ++i) {
+                const auto next = dAt(k + 1, i);
+                smoothed[i] = tables.smooth
+                                  ? hn::Mul(hn::Add(smoothed[i], hn::Add(now[i], next)), third)
+                                  : now[i];
+                now[i] = next;
+                hn::Store(hn::Mul(smoothed[i], factor), d, w + i * kDoubles);
+            }
         }
     }
 }
@@ -708,7 +718,7 @@ void searchAbove(const TScaleTables& tables,
 
 template <class COUNT>
 TKernels<COUNT> kernels() {
-    return {fill, count<COUNT>, countLast<COUNT>, addOverlap<COUNT>, lastScale, search<COUNT>, searchAbove<COUNT>};
+    return {fill, count<COUNT>, countRest<COUNT>, addOverlap<COUNT>, lastScale, search<COUNT>, searchAbove<COUNT>};
 }
 
 }  // namespace HWY_NAMESPACE

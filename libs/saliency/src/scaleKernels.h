@@ -59,8 +59,8 @@ struct TKernels {
                   std::size_t stride,
                   COUNT* out){nullptr};
 
-    /// The last of the present bins, from the others. \param rings Of a row, [present][scale][lane].
-    void (*countLast)(const TScaleTables& tables, int present, COUNT* rings){nullptr};
+    /// Counts the bin `which` from the other ones. \param rings Of a row, [present][scale][lane].
+    void (*countRest)(const TScaleTables& tables, int present, int which, COUNT* rings){nullptr};
 
     /** Adds what a bin has in common between ring and disc before, rounded down.
      * \param rings Result of `count`. \param overlap [row][scale][lane] */
