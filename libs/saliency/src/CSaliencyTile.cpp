@@ -234,7 +234,7 @@ template <class COUNT>
 double CSaliencyTile<COUNT>::entropy(int k, int x) const {
     const int area = m_tables.area[static_cast<std::size_t>(m_tables.sMin + k)];
     const double* const nLogN = m_tables.nLogN.data();
-    const std::uint16_t* count = m_part.counts.get() + k * m_part.present * kPart + x;
+    const std::uint16_t* count = m_part.countsOf(k) + x;
     double sum = 0;
     for (int b = 0; b < m_part.present; ++b, count += kPart) sum += nLogN[*count];
     return (nLogN[area] - sum) / area;
@@ -247,7 +247,7 @@ void CSaliencyTile<COUNT>::computeEntropies(const TCandidate* candidates, double
     std::array<const std::uint16_t*, kTogether> counts{};
     std::array<double, kTogether> sums{};
     for (std::size_t i = 0; i < kTogether; ++i)
-        counts[i] = m_part.counts.get() + candidates[i].k * m_part.present * kPart + candidates[i].x;
+        counts[i] = m_part.countsOf(candidates[i].k) + candidates[i].x;
     for (int b = 0; b < m_part.present; ++b)
         for (std::size_t i = 0; i < kTogether; ++i) sums[i] += nLogN[counts[i][b * kPart]];
     for (std::size_t i = 0; i < kTogether; ++i) {

@@ -341,24 +341,23 @@ class CLogs {
 /// Orders the bins by the first scale at which they occur about the centres of a part.
 template <class COUNT>
 void orderBins(const TScaleTables& tables, const COUNT* rings, TPart& part) {
-    part.firstScale.resize(static_cast<std::size_t>(part.present));
-    part.order.resize(static_cast<std::size_t>(part.present));
     const hn::CappedTag<COUNT, kPart> d;
     constexpr int n = static_cast<int>(hn::MaxLanes(d));
+    part.firstScale.clear();
+    part.order.clear();
     for (int b = 0; b < part.present; ++b, rings += tables.scales() * kLanes) {
         int k = 0;
         const auto occurs = [&] {
             auto any = hn::Zero(d);
-            for (int x = 0; x < kPart; x += n) any = hn::Or(any, hn::Load(d, rings + k * kLanes + x));
+            for (int x = 0; x < kPart; x += n)
+                any = hn::Or(any, hn::Load(d, rings + k * kLanes + x));
             return !hn::AllTrue(d, hn::Eq(any, hn::Zero(d)));
         };
         while (k < tables.scales() && !occurs()) ++k;
-        part.firstScale[static_cast<std::size_t>(b)] = k;
-        part.order[static_cast<std::size_t>(b)] = b;
+        const auto at = std::upper_bound(part.firstScale.begin(), part.firstScale.end(), k);
+        part.order.insert(part.order.begin() + (at - part.firstScale.begin()), b);
+        part.firstScale.insert(at, k);
     }
-    std::sort(part.order.begin(), part.order.end(), [&part](int a, int b) {
-        return part.firstScale[static_cast<std::size_t>(a)] < part.firstScale[static_cast<std::size_t>(b)];
-    });
 }
 
 /// Counts, changes and entropies of all scales.
@@ -368,14 +367,20 @@ void sumAll(const TScaleTables& tables, const COUNT* rings, TPart& part) {
     const DInt di;
     const DFloat df;
     orderBins(tables, rings, part);
+    std::fill_n(part.countsOf(-1), part.present * kPart, std::uint16_t{0});
     const int scales = tables.scales();
-    const int ofBin = scales * kLanes;
+    const int ofScale = part.present * kPart;
+    const COUNT* ringsOf[256];  // of the bins in order of their first scales
+    std::uint16_t* countsOf[256];
+    for (int i = 0; i < part.present; ++i) {
+        const int b = part.order[static_cast<std::size_t>(i)];
+        ringsOf[i] = rings + b * scales * kLanes;
+        countsOf[i] = part.countsOf(0) + b * kPart;
+    }
     int active = 0;
     for (int k = 0; k < scales; ++k) {
-        const auto firstOf = [&part](int i) {
-            return part.firstScale[static_cast<std::size_t>(part.order[static_cast<std::size_t>(i)])];
-        };
-        while (active < part.present && firstOf(active) <= k) ++active;
+        while (active < part.present && part.firstScale[static_cast<std::size_t>(active)] <= k)
+            ++active;
         const auto s = static_cast<std::size_t>(tables.sMin + k);
         const int area = tables.area[s];
         const int inRing = k > 0 ? tables.inRing(k) : 0;
@@ -383,19 +388,17 @@ void sumAll(const TScaleTables& tables, const COUNT* rings, TPart& part) {
         const auto inRings = hn::Set(di, inRing);
         const auto both = hn::Set(di, (area & 0xffff) | -inRing * 65536);
         const CLogs logs(tables.bound[static_cast<std::size_t>(k)].log2Area);
-        std::uint16_t* const counts = part.counts.get() + k * part.present * kPart;
         for (int x = 0; x < kPart; x += kShorts) {
+            const int ring = k * kLanes + x;
+            const int count = k * ofScale + x;
             auto change0 = hn::Zero(di);
             auto change1 = hn::Zero(di);
             auto sum0 = hn::Zero(df);
             auto sum1 = hn::Zero(df);
             for (int i = 0; i < active; ++i) {
-                const int b = part.order[static_cast<std::size_t>(i)];
-                std::uint16_t* const count = counts + b * kPart + x;
-                const auto r = ringOf(rings + b * ofBin + k * kLanes + x);
-                auto n = r;
-                if (k > 0) n = hn::Add(n, hn::Load(d16, count - part.present * kPart));
-                hn::Store(n, d16, count);
+                const auto r = ringOf(ringsOf[i] + ring);
+                const auto n = hn::Add(r, hn::Load(d16, countsOf[i] + count - ofScale));
+                hn::Store(n, d16, countsOf[i] + count);
                 const auto pairs0 = hn::ZipLower(r, n);
                 const auto pairs1 = hn::ZipUpper(D32(), r, n);
                 change0 = hn::Add(change0, growth<COUNT>(pairs0, areas, inRings, both));
@@ -404,8 +407,7 @@ void sumAll(const TScaleTables& tables, const COUNT* rings, TPart& part) {
                 sum1 = logs.addTo(sum1, hn::BitCast(di, hn::ShiftRight<16>(pairs1)));
             }
             for (int i = active; i < part.present; ++i)
-                hn::Store(hn::Zero(d16), d16,
-                          counts + part.order[static_cast<std::size_t>(i)] * kPart + x);
+                hn::Store(hn::Zero(d16), d16, countsOf[i] + count);
             const auto factor = hn::Set(df, -1.0F / static_cast<float>(area));
             std::int32_t* const change = part.change.get() + k * kPart + x;
             float* const entropy = part.entropy.get() + k * kPart + x;
@@ -468,9 +470,9 @@ constexpr float kNone = 1e-4F;
 /** Collects the marks of the places from x on, in registers until a word is full or done. */
 class CMarks {
  public:
-    CMarks(int x, TPart& part)
+    HWY_INLINE CMarks(int x, TPart& part)
         : m_x(x), m_margin(marginOf(part)), m_certain(hn::Zero(d)), m_possible(hn::Zero(d)), m_part(part) {}
-    ~CMarks() { store(); }
+    HWY_INLINE ~CMarks() { store(); }
     CMarks(const CMarks&) = delete;
     CMarks& operator=(const CMarks&) = delete;
 
@@ -609,7 +611,7 @@ void sumCounts(const TScaleTables& tables, const COUNT* rings, int lastScale, TP
             auto n = hn::Zero(d);
             for (int k = 0; k <= lastScale; ++k) {
                 n = hn::Add(n, ringOf(rings + k * kLanes + x));
-                hn::Store(n, d, part.counts.get() + (k * part.present + b) * kPart + x);
+                hn::Store(n, d, part.countsOf(k) + b * kPart + x);
             }
         }
 }
@@ -652,7 +654,7 @@ HWY_INLINE VFloats entropyOf(const TScaleTables& tables, const TPart& part, int 
     const int area = tables.area[static_cast<std::size_t>(tables.sMin + k)];
     const CLogs logs(tables.bound[static_cast<std::size_t>(k)].log2Area);
     auto sum = hn::Zero(d);
-    const std::uint16_t* count = part.counts.get() + k * part.present * kPart + x;
+    const std::uint16_t* count = part.countsOf(k) + x;
     for (int b = 0; b < part.present; ++b, count += kPart)
         sum = logs.addTo(sum, hn::PromoteTo(di, hn::Load(d16, count)));
     return hn::Mul(sum, hn::Set(d, -1.0F / static_cast<float>(area)));
@@ -667,7 +669,7 @@ HWY_INLINE void computeChanges(const TScaleTables& tables, int x, int lastScale,
         const auto area = hn::Set(di, tables.area[s]);
         const auto before = hn::Set(di, tables.area[s - 1]);
         auto change = hn::Zero(di);
-        const std::uint16_t* count = part.counts.get() + k * part.present * kPart + x;
+        const std::uint16_t* count = part.countsOf(k) + x;
         for (int b = 0; b < part.present; ++b, count += kPart) {
             const auto n = hn::PromoteTo(di, hn::Load(d16, count));
             const auto old = hn::PromoteTo(di, hn::Load(d16, count - part.present * kPart));
@@ -731,7 +733,7 @@ namespace salma::saliency {
 TPart::TPart(const TScaleTables& tables) {
     const auto n = static_cast<std::size_t>(tables.scales() * kPart);
     const auto words = static_cast<std::size_t>((tables.scales() + kInWord - 1) / kInWord * kPart);
-    counts = hwy::AllocateAligned<std::uint16_t>(n * static_cast<std::size_t>(tables.bins));
+    counts = hwy::AllocateAligned<std::uint16_t>((n + kPart) * static_cast<std::size_t>(tables.bins));
     change = hwy::AllocateAligned<std::int32_t>(n);
     entropy = hwy::AllocateAligned<float>(n);
     wBound = hwy::AllocateAligned<float>(n);

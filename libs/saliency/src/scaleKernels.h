@@ -20,13 +20,16 @@ struct TPart {
     template <class T>
     using TBuffer = hwy::AlignedFreeUniquePtr<T[]>;
     int present{0};                 //!< Bins that are counted.
-    TBuffer<std::uint16_t> counts;  //!< [scale][present][centre] pixels of the disc in the bin.
+    /// Pixels of the disc at scale k in each bin, [present][centre]; k = -1 has none.
+    std::uint16_t* countsOf(int k) const { return counts.get() + (k + 1) * present * kPart; }
+
+    TBuffer<std::uint16_t> counts;  //!< Of scales -1, 0, ...
     TBuffer<std::int32_t> change;   //!< [scale][place] sum max(0, r N' - n' R).
     TBuffer<float> entropy;         //!< [scale][place] about H [bit].
     TBuffer<float> wBound;          //!< [scale][place] at least W.
     TBuffer<double> w;              //!< [scale][place] W.
-    std::vector<int> firstScale;      //!< [present] at which the bin occurs about the centres.
-    std::vector<int> order;           //!< Of the bins, by first scale.
+    std::vector<int> firstScale;      //!< At which a bin occurs about the centres, ascending.
+    std::vector<int> order;           //!< The bins in that order.
     TBuffer<std::uint32_t> certain;   //!< [word][place] bit s: a peak of entropy at scale s.
     TBuffer<std::uint32_t> possible;  //!< [word][place] bit s: a peak, or too close to tell.
     std::array<std::uint8_t, kPart> place{};  //!< Of each centre.
