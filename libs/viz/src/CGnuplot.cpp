@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "CGnuplot.h"
+#include <salma/viz/CGnuplot.h>
 
 #include <fcntl.h>
 #include <spawn.h>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <salma/viz/CGnuplot.h>
 #include <salma/viz/CPlots.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "CGnuplot.h"
 #include "CTextFile.h"
 
 namespace salma::viz {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <salma/viz/CGnuplot.h>
 #include <salma/viz/CPlots.h>
 #include <salma/viz/CTrajectoryScore.h>
 
@@ -7,7 +8,6 @@
 #include <cmath>
 #include <functional>
 
-#include "CGnuplot.h"
 #include "CTextFile.h"
 #include "TPlotFrame.h"
 
