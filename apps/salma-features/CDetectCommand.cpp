@@ -115,7 +115,7 @@ void CDetectCommand::run(std::ostream& out) {
 
 std::string CDetectCommand::findSalient(const cv::Mat& grey, const std::string& prefix) const {
     const int window = 2 * m_config.saliency.scaleMax + 1;
-    const auto peaks = saliency::CScaleSaliency(m_config.saliency).detect(grey, m_yMin);
+    const auto peaks = saliency::CScaleSaliency(m_config.saliency).detect(grey, {m_yMin});
     auto regions = saliency::createClusterer(m_config.clustering)->cluster(peaks).regions;
     std::vector<saliency::TEllipse> ellipses;
     std::string summary =

@@ -81,7 +81,7 @@ std::vector<observations::TSalientRegion> CRegionDescriptor::describe(
     const int margin = m_options.scaleMax;  // the detector has no centres nearer to the border
     const cv::Mat wall = normalised(grey, view, r, margin);
     if (wall.empty()) return {};
-    auto regions = m_clusterer.cluster(m_saliency.detect(wall, m_options.yMin)).regions;
+    auto regions = m_clusterer.cluster(m_saliency.detect(wall, {m_options.yMin})).regions;
     const double pixelU = width / (wall.cols - 2 * margin);
     const double pixelV = height / (wall.rows - 2 * margin);
     for (auto& region : regions) {

@@ -74,7 +74,7 @@ TFrontEndResult CFrontEnd::process(const TView& view) const {
     std::vector<CWallView> walls;
     for (const auto& line : view.walls) walls.emplace_back(view.camera, view.T_r_c, line);
 
-    const auto peaks = m_saliency.detect(view.grey, m_selector.options().yMin);
+    const auto peaks = m_saliency.detect(view.grey, {m_selector.options().yMin});
     const auto regions = m_clusterer->cluster(peaks).regions;
     std::vector<std::vector<cv::Point>> stable;
     if (m_options.joinByMser && regions.size() > 1)

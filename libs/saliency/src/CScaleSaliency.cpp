@@ -6,7 +6,11 @@
 #include <cmath>
 #include <functional>
 #include <future>
+#include <mutex>
+#include <numeric>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <queue>
 #include <stdexcept>
 #include <string>
 
@@ -33,6 +37,32 @@ std::vector<TJob> cut(const cv::Rect& centres) {
     return jobs;
 }
 
+/// The threshold, which rises as soon as as many peaks as are wanted are known to pass it.
+class CThreshold {
+ public:
+    explicit CThreshold(const TPeakLimits& limits) : m_yMin(limits.yMin), m_best(limits.best) {}
+
+    double yMin() const { return m_yMin; }
+
+    void add(const std::vector<TPeak>& peaks) {
+        if (m_best == 0) return;
+        const std::lock_guard<std::mutex> lock(m_mutex);
+        for (const TPeak& peak : peaks) {
+            const double y = peak.H * peak.W;
+            if (m_largest.size() == m_best && !(y > m_largest.top())) continue;
+            m_largest.push(y);
+            if (m_largest.size() > m_best) m_largest.pop();
+        }
+        if (m_largest.size() == m_best) m_yMin = std::max<double>(m_yMin, m_largest.top());
+    }
+
+ private:
+    std::atomic<double> m_yMin;
+    std::size_t m_best;
+    std::mutex m_mutex;
+    std::priority_queue<double, std::vector<double>, std::greater<>> m_largest;
+};
+
 /// The peaks of all tiles by row, column, scale.
 TRegions join(const std::vector<TJob>& jobs) {
     std::size_t count = 0;
@@ -55,20 +85,52 @@ TRegions join(const std::vector<TJob>& jobs) {
     return all;
 }
 
+/// Leaves the `best` of largest Y, of equal ones the first, in their order.
+void keepBest(std::size_t best, TRegions& regions) {
+    if (best == 0 || regions.size() <= best) return;
+    std::vector<std::size_t> order(regions.size());
+    std::iota(order.begin(), order.end(), 0);
+    const auto end = order.begin() + static_cast<std::ptrdiff_t>(best);
+    std::nth_element(order.begin(), end, order.end(), [&regions](std::size_t a, std::size_t b) {
+        return std::make_pair(-regions[a].Y, a) < std::make_pair(-regions[b].Y, b);
+    });
+    std::sort(order.begin(), end);
+    TRegions kept;
+    kept.reserve(best);
+    for (auto i = order.begin(); i != end; ++i) kept.push_back(regions[*i]);
+    regions.swap(kept);
+}
+
 template <class COUNT>
 void work(const TScaleTables& tables,
           const cv::Mat& bins,
-          double yMin,
           const std::function<TJob*()>& next,
-          ESimd simd) {
+          ESimd simd,
+          CThreshold& threshold) {
     CSaliencyTile<COUNT> tile(tables, kernelsFor<COUNT>(simd));
-    for (TJob* job = next(); job != nullptr; job = next())
-        job->found = tile.detect(bins, job->centres, yMin);
+    for (TJob* job = next(); job != nullptr; job = next()) {
+        job->found = tile.detect(bins, job->centres, threshold.yMin());
+        threshold.add(job->found.peaks);
+    }
 }
 
 std::string typeName(const cv::Mat& picture) {
     static constexpr const char* kDepths[] = {"8U", "8S", "16U", "16S", "32S", "32F", "64F", "16F"};
     return std::string("CV_") + kDepths[picture.depth()] + "C" + std::to_string(picture.channels());
+}
+
+/// \throw std::invalid_argument if the picture is of a type that is not known.
+cv::Mat greyOf(const cv::Mat& picture) {
+    cv::Mat grey = picture;
+    if (picture.type() == CV_8UC3)
+        cv::cvtColor(picture, grey, cv::COLOR_BGR2GRAY);
+    else if (picture.type() == CV_8UC4)
+        cv::cvtColor(picture, grey, cv::COLOR_BGRA2GRAY);
+    else if (picture.type() != CV_8UC1)
+        throw std::invalid_argument(
+            "scale saliency needs a picture of 8 bits (CV_8UC1, CV_8UC3 or CV_8UC4), got " +
+            typeName(picture));
+    return grey;
 }
 
 }  // namespace
@@ -83,6 +145,14 @@ void TScaleSaliencyOptions::visit(config::COptionVisitor& v) {
     v.flag("stretch", stretch, "stretch the grey levels of a picture to the full range first");
     v.integer("threads", threads, config::between(1, 256),
               "threads; they do not change the result");
+    v.choice("simd", simd,
+             {{"auto", ESimd::automatic},
+              {"portable", ESimd::portable},
+              {"sse4", ESimd::sse4},
+              {"avx2", ESimd::avx2},
+              {"avx512", ESimd::avx512},
+              {"neon", ESimd::neon}},
+             "instruction set; it does not change the result");
 }
 
 void TScaleSaliencyOptions::validate() const {
@@ -92,21 +162,22 @@ void TScaleSaliencyOptions::validate() const {
             " must be at least scale_min_px + 2 = " + std::to_string(scaleMin + 2));
 }
 
-CScaleSaliency::CScaleSaliency(const TScaleSaliencyOptions& options, ESimd simd)
-    : m_options(options), m_simd(simd) {
+CScaleSaliency::CScaleSaliency(const TScaleSaliencyOptions& options) : m_options(options) {
     m_options.validate();
+    static_cast<void>(kernelsFor<std::uint8_t>(options.simd));  // throws if there are none
     m_tables = std::make_shared<const TScaleTables>(m_options);
 }
 
-TRegions CScaleSaliency::detect(const cv::Mat& grey, double yMin) const {
-    if (grey.type() != CV_8UC1)
-        throw std::invalid_argument(
-            "scale saliency needs a grey picture of 8 bits (CV_8UC1), got " + typeName(grey));
-    if (std::isnan(yMin)) throw std::invalid_argument("scale saliency: y_min is not a number");
+TRegions CScaleSaliency::detect(const cv::Mat& picture, const TPeakLimits& limits) const {
+    if (std::isnan(limits.yMin)) throw std::invalid_argument("scale saliency: y_min is not a number");
+    const cv::Mat grey = greyOf(picture);
     const int reach = m_options.scaleMax;
     if (std::min(grey.rows, grey.cols) <= 2 * reach) return {};
     const cv::Mat bins = quantise(grey);
-    auto jobs = cut({reach, reach, grey.cols - 2 * reach, grey.rows - 2 * reach});
+    cv::Rect centres(reach, reach, grey.cols - 2 * reach, grey.rows - 2 * reach);
+    if (!limits.centres.empty()) centres &= limits.centres;
+    auto jobs = cut(centres);
+    CThreshold threshold(limits);
     std::atomic<std::size_t> taken{0};
     const std::function<TJob*()> next = [&jobs, &taken] {
         const std::size_t i = taken++;
@@ -114,14 +185,16 @@ TRegions CScaleSaliency::detect(const cv::Mat& grey, double yMin) const {
     };
     const auto worker = [&] {
         const auto run = m_tables->fitsBytes() ? work<std::uint8_t> : work<std::uint16_t>;
-        run(*m_tables, bins, yMin, next, m_simd);
+        run(*m_tables, bins, next, m_options.simd, threshold);
     };
     std::vector<std::future<void>> others;
     for (int i = 1; i < m_options.threads && static_cast<std::size_t>(i) < jobs.size(); ++i)
         others.push_back(std::async(std::launch::async, worker));
     worker();
     for (auto& other : others) other.get();
-    return join(jobs);
+    auto regions = join(jobs);
+    keepBest(limits.best, regions);
+    return regions;
 }
 
 cv::Mat CScaleSaliency::quantise(const cv::Mat& grey) const {

@@ -775,7 +775,8 @@ template <class COUNT>
 TKernels<COUNT> kernelsFor(ESimd simd) {
     if (simd == ESimd::automatic) simd = bestSimd();
     if (!hasSimd(simd))
-        throw std::invalid_argument("saliency: this processor or build lacks the chosen simd");
+        throw std::invalid_argument("scale saliency: this processor, or this build, has not got the "
+                                    "instruction set of the option simd; auto takes the best there is");
 #if HWY_TARGETS & HWY_AVX3
     if (simd == ESimd::avx512) return N_AVX3::kernels<COUNT>();
 #endif

@@ -75,7 +75,7 @@ std::pair<double, double> errorsUnderStretch(const cv::Mat& grey, double ratio, 
     cv::Mat copy;
     cv::warpPerspective(grey, copy, affinity, grey.size());
     std::vector<TSalientRegion> here, there;
-    auto strongest = CGreedyClusterer().cluster(CScaleSaliency().detect(grey, 1.5)).regions;
+    auto strongest = CGreedyClusterer().cluster(CScaleSaliency().detect(grey, {1.5})).regions;
     strongest.resize(std::min<std::size_t>(strongest.size(), 300));
     for (const auto& r : strongest) {
         const cv::Vec3d p = affinity * cv::Vec3d(r.x, r.y, 1);

@@ -30,7 +30,7 @@ void expectReadsWhatItWrites(const OPTIONS& options) {
 TEST(SaliencyOptions, ReadEveryKeyOfDetection) {
     const auto options = load<TScaleSaliencyOptions>(
         "scale_min_px = 4\nscale_max_px = 20\nbins = 32\nlog_base = 2\nsmooth = false\n"
-        "stretch = true\nthreads = 2\n");
+        "stretch = true\nthreads = 2\nsimd = portable\n");
     EXPECT_EQ(options.scaleMin, 4);
     EXPECT_EQ(options.scaleMax, 20);
     EXPECT_EQ(options.bins, 32);
@@ -38,12 +38,13 @@ TEST(SaliencyOptions, ReadEveryKeyOfDetection) {
     EXPECT_FALSE(options.smooth);
     EXPECT_TRUE(options.stretch);
     EXPECT_EQ(options.threads, 2);
+    EXPECT_EQ(options.simd, ESimd::portable);
     expectReadsWhatItWrites(options);
 }
 
 TEST(SaliencyOptions, RefuseValuesBeyondTheirRanges) {
     for (const std::string wrong : {"scale_min_px = 0", "scale_max_px = 129", "bins = 1",
-                                    "bins = 257", "log_base = 10", "threads = 0", "scales = 3"})
+                                    "bins = 257", "log_base = 10", "threads = 0", "simd = mmx", "scales = 3"})
         EXPECT_THROW(load<TScaleSaliencyOptions>(wrong), std::invalid_argument) << wrong;
     EXPECT_THROW(load<TScaleSaliencyOptions>("scale_min_px = 10\nscale_max_px = 11"),
                  std::invalid_argument);

@@ -4,6 +4,7 @@
 #include <salma/config/TStrictOptions.h>
 #include <salma/observations/TSalientRegion.h>
 
+#include <cstddef>
 #include <memory>
 #include <opencv2/core/mat.hpp>
 #include <vector>
@@ -32,13 +33,21 @@ struct TScaleSaliencyOptions : public config::TStrictOptions<TScaleSaliencyOptio
     bool smooth{true};                    //!< Smooth W over three scales, in place.
     bool stretch{false};                  //!< Stretch the picture's greys to 0..255 first.
     int threads{1};                       //!< Threads; the result does not depend on it.
+    ESimd simd{ESimd::automatic};         //!< Instruction set; nor on it.
 
     void visit(config::COptionVisitor& v);
     /// \throw std::invalid_argument if there is no scale between the smallest and the largest.
     void validate() const;
 };
 
-/** Scale saliency of a grey picture: places and radii whose grey levels are most unpredictable.
+/// Which peaks are wanted. The result is exactly what is left of all; the less, the faster.
+struct TPeakLimits {
+    double yMin{0};       //!< Only peaks with Y >= yMin.
+    std::size_t best{0};  //!< Only so many, of the largest Y, the first of equal ones; 0 is all.
+    cv::Rect centres{};   //!< Only centres in this part of the picture [px]; empty is everywhere.
+};
+
+/** Scale saliency of a picture: places and radii whose grey levels are most unpredictable.
  *
  * With p(s) the histogram of the disc of radius s about a pixel, H(s) its entropy, and
  * W(s) = s^2/(2s-1) sum |p(s) - p(s-1)| (smoothed), each scale with H(s-1) < H(s) > H(s+1) is a
@@ -47,16 +56,16 @@ struct TScaleSaliencyOptions : public config::TStrictOptions<TScaleSaliencyOptio
  * Source: T. Kadir and M. Brady, "Saliency, scale and image description", IJCV 45(2), 2001. */
 class CScaleSaliency {
  public:
-    /** \param simd Instruction set, for tests; one the processor lacks is replaced by the best it
-     * has. \throw std::invalid_argument */
-    explicit CScaleSaliency(const TScaleSaliencyOptions& options = {}, ESimd simd = bestSimd());
+    /// \throw std::invalid_argument if options are out of range, or the processor lacks the
+    /// instruction set.
+    explicit CScaleSaliency(const TScaleSaliencyOptions& options = {});
 
-    /** All entropy peaks whose disc of the largest scale fits into the picture, by row, column,
-     * scale.
-     * \param grey Picture [rows x cols], CV_8UC1; smaller than a disc gives an empty result.
-     * \param yMin Only peaks with Y >= yMin: exactly those of a call without it, found sooner.
+    /** Entropy peaks whose disc of the largest scale fits into the picture, by row, column, scale.
+     * \param picture [rows x cols], CV_8UC1, or CV_8UC3 and CV_8UC4 as OpenCV's BGR, whose grey
+     * is taken; smaller than a disc gives an empty result.
      * \throw std::invalid_argument for another type of picture, or yMin not a number. */
-    std::vector<observations::TSalientRegion> detect(const cv::Mat& grey, double yMin = 0) const;
+    std::vector<observations::TSalientRegion> detect(const cv::Mat& picture,
+                                                     const TPeakLimits& limits = {}) const;
 
     const TScaleSaliencyOptions& options() const { return m_options; }
 
@@ -64,7 +73,6 @@ class CScaleSaliency {
     cv::Mat quantise(const cv::Mat& grey) const;
 
     TScaleSaliencyOptions m_options;
-    ESimd m_simd;
     std::shared_ptr<const TScaleTables> m_tables;
 };
 
