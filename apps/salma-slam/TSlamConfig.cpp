@@ -23,6 +23,7 @@ void forEachSection(CONFIG& c, VISITOR visitor) {
     visitor("border", c.seeing.border);
     visitor("rectification", c.seeing.rectification);
     visitor("second_look", c.seeing.secondLook);
+    visitor("texture", c.seeing.texture);
     visitor("descriptor", c.seeing.descriptor);
     visitor("matcher", c.matcher);
     visitor("region_matcher", c.regionMatcher);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <mrpt/math/wrap2pi.h>
 #include <salma/appearance/CPatchMatcher.h>
+#include <salma/appearance/CTexture.h>
 
 #include <algorithm>
 #include <cmath>
@@ -132,6 +133,7 @@ TPatchMatch CPatchMatcher::match(const observations::TPatch& a,
                                  const observations::TPatch& b) const {
     TPatchMatch out;
     out.viewDifference = std::abs(mrpt::math::wrapToPi(viewOf(a) - viewOf(b)));
+    out.textureDistance = textureDistance(a.texture, b.texture);
     const std::size_t fewer = std::min(a.keypoints.size(), b.keypoints.size());
     const bool telling = fewer >= static_cast<std::size_t>(m_options.minMatches);
     if (telling) matchKeypointsOf(a, b, out);

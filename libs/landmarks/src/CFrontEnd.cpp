@@ -63,6 +63,7 @@ CFrontEnd::CFrontEnd(const TSeeingOptions& options)
       m_border(options.border),
       m_rectifier(options.rectification),
       m_secondLook(options.secondLook),
+      m_texture(options.texture),
       m_descriptor(options.descriptor) {
     m_options.validate();
 }
@@ -113,6 +114,7 @@ std::optional<TPatch> CFrontEnd::landmarkOf(const TEntity& entity,
     if (patch.keypoints.size() < static_cast<std::size_t>(m_options.minKeypoints))
         return refuse("too few keypoints");
     patch.regions = m_secondLook.describe(view.grey, wall, *border);
+    patch.texture = m_texture.describe(view.grey, wall, *border);
     return std::move(rectified.patch);
 }
 

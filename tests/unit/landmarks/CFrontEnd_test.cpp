@@ -33,6 +33,7 @@ TEST(CFrontEnd, FindsThePaintingWithItsPlaceAndSizeFromSeveralSides) {
         EXPECT_NEAR(patch.pose.mean.y(), 1.8 * sin(alpha) - 0.05 * cos(alpha), 0.04) << alpha;
         EXPECT_NEAR(patch.pose.mean.z(), 1.2, 0.03) << alpha;
         EXPECT_FALSE(patch.regions.empty()) << "the second look describes it";
+        EXPECT_EQ(patch.texture.size(), appearance::CTexture::kBins) << "the wall around it";
         for (const auto& r : patch.regions) {
             EXPECT_LE(std::abs(r.x), patch.width / 2) << "metres from the centre";
             EXPECT_LE(std::abs(r.y), patch.height / 2);

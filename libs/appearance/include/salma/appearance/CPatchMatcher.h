@@ -74,7 +74,10 @@ struct TPatchMatch {
     double regionScore{0};         //!< In [0, 1].
     bool regionsAgree{false};      //!< The region score is above what the two views demand.
     double viewDifference{0};      //!< Between the directions of the two views [rad].
-    std::size_t putative{0};       //!< Keypoints that passed ratio test and mutual test.
+    /// Hellinger distance of the walls around, [0, 1]; nothing if one is not described. It does not
+    /// enter the ratio: most posters of a building hang on the same wall.
+    std::optional<double> textureDistance;
+    std::size_t putative{0};  //!< Keypoints that passed ratio test and mutual test.
     std::vector<std::pair<std::size_t, std::size_t>> keypoints;  //!< Agreeing: index in a, in b.
     std::vector<std::pair<std::size_t, std::size_t>> regions;    //!< Matched: index in a, in b.
     /// From the keypoints if they score, else from the regions if those agree.

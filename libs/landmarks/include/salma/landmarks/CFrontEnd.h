@@ -4,6 +4,7 @@
 #include <salma/appearance/CPatchDescriptor.h>
 #include <salma/appearance/CRectifier.h>
 #include <salma/appearance/CRegionDescriptor.h>
+#include <salma/appearance/CTexture.h>
 #include <salma/landmarks/CBorderFinder.h>
 #include <salma/landmarks/CEntitySelector.h>
 #include <salma/laser/TLine.h>
@@ -44,6 +45,7 @@ struct TSeeingOptions {
     TBorderOptions border;
     appearance::TRectificationOptions rectification;
     appearance::TSecondLookOptions secondLook;
+    appearance::TTextureOptions texture;
     appearance::TDescriptorOptions descriptor;
 };
 
@@ -92,6 +94,7 @@ class CFrontEnd {
     CBorderFinder m_border;
     appearance::CRectifier m_rectifier;
     appearance::CRegionDescriptor m_secondLook;
+    appearance::CTexture m_texture;
     appearance::CPatchDescriptor m_descriptor;
 };
 
