@@ -37,13 +37,13 @@ TRegions peaksOfPainting(std::size_t count) {
     throw std::runtime_error("the painting has too few peaks");
 }
 
-/// The console's table, and the shortest time of each benchmark for the ratios.
+/// The console's table, and for the ratios the shortest processor time of each benchmark.
 class CTimes : public benchmark::ConsoleReporter {
  public:
     void ReportRuns(const std::vector<Run>& runs) override {
         for (const auto& run : runs)
             if (run.run_type == Run::RT_Iteration) {
-                const double time = run.GetAdjustedRealTime();
+                const double time = run.GetAdjustedCPUTime();
                 const auto [at, isNew] = m_shortest.emplace(run.run_name.function_name, time);
                 if (!isNew && time < at->second) at->second = time;
             }

@@ -14,7 +14,7 @@ using observations::TSalientRegion;
 
 namespace {
 
-/** The discs kept so far, each entered in every cell of a grid that it may touch, so that a point
+/** The discs that were kept, each entered in every cell of a grid that it may touch, so that a point
  * meets only the few discs of its own cell. */
 class CDiscs {
  public:
@@ -35,6 +35,8 @@ class CDiscs {
             return false;
         });
     }
+
+    void clear() { m_grid.clear(); }
 
  private:
     CPlaceGrid<TSalientRegion> m_grid;
@@ -81,6 +83,7 @@ TClusteredRegions CGreedyClusterer::cluster(const std::vector<TSalientRegion>& p
         rest.erase(std::remove_if(rest.begin(), rest.end(),
                                   [&](const auto& r) { return isFirst(r) || isCovered(r); }),
                    rest.end());
+        kept.clear();  // none of them covers any of the rest
     }
     result.insideStronger = strong - result.regions.size();
     return result;

@@ -28,6 +28,10 @@ class CPlaceGrid {
         return m_cells[cell(y - m_top) * m_columns + cell(x - m_left)];
     }
 
+    void clear() {
+        for (auto& items : m_cells) items.clear();
+    }
+
     /// Calls `visit(items)` for each cell that may hold places within `radius` of one in the box,
     /// until it returns true; returns whether it did.
     template <class VISIT>
