@@ -15,6 +15,9 @@ std::vector<TPictureSet> readSets(const std::vector<std::string>& folders) {
     std::set<std::string> names;
     for (const auto& folder : folders) {
         sets.push_back(readPictureSet(folder));
+        if (sets.back().name.find_first_of(",|'\"\\\n`") != std::string::npos)
+            throw std::invalid_argument(
+                folder + ": tables and figures cannot carry a name with a comma, bar or quote");
         if (!names.insert(sets.back().name).second)
             throw std::invalid_argument(folder + ": another set is named " + sets.back().name +
                                         " too");

@@ -200,6 +200,9 @@ TEST(repeatabilityBench, NamesTheFileThatIsMissingOrBroken) {
     EXPECT_FALSE(fs::exists(out));
     folder.write("wall/H1to3p", kIdentity);
     expectOneLineError(run({set, set + "/", "--out", out}), "another set is named wall too");
+    fs::rename(set, folder / "w'all");
+    expectOneLineError(run({(folder / "w'all").string(), "--out", out}),
+                       "w'all: tables and figures cannot carry");
 }
 
 TEST(repeatabilityBench, RefusesWrongUse) {
