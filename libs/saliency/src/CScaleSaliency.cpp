@@ -122,6 +122,7 @@ std::string typeName(const cv::Mat& picture) {
 /// \throw std::invalid_argument if the picture is of a type that is not known.
 cv::Mat greyOf(const cv::Mat& picture) {
     cv::Mat grey = picture;
+    if (picture.empty()) return grey;
     if (picture.type() == CV_8UC3)
         cv::cvtColor(picture, grey, cv::COLOR_BGR2GRAY);
     else if (picture.type() == CV_8UC4)
@@ -151,11 +152,13 @@ void TScaleSaliencyOptions::visit(config::COptionVisitor& v) {
               {"sse4", ESimd::sse4},
               {"avx2", ESimd::avx2},
               {"avx512", ESimd::avx512},
+              {"avx512dl", ESimd::avx512dl},
               {"neon", ESimd::neon}},
              "instruction set; it does not change the result");
 }
 
 void TScaleSaliencyOptions::validate() const {
+    checkRanges();
     if (scaleMax < scaleMin + 2)
         throw std::invalid_argument(
             "scale_max_px = " + std::to_string(scaleMax) +
@@ -170,9 +173,10 @@ CScaleSaliency::CScaleSaliency(const TScaleSaliencyOptions& options) : m_options
 
 TRegions CScaleSaliency::detect(const cv::Mat& picture, const TPeakLimits& limits) const {
     if (std::isnan(limits.yMin)) throw std::invalid_argument("scale saliency: y_min is not a number");
-    const cv::Mat grey = greyOf(picture);
     const int reach = m_options.scaleMax;
-    if (std::min(grey.rows, grey.cols) <= 2 * reach) return {};
+    const bool tooSmall = std::min(picture.rows, picture.cols) <= 2 * reach;
+    const cv::Mat grey = greyOf(picture);
+    if (tooSmall) return {};
     const cv::Mat bins = quantise(grey);
     cv::Rect centres(reach, reach, grey.cols - 2 * reach, grey.rows - 2 * reach);
     if (!limits.centres.empty()) centres &= limits.centres;

@@ -11,6 +11,7 @@
 // Every instruction set that the compiler knows, the portable one included; others would add
 // nothing (SSSE3) or have vectors whose size is known too late (SVE).
 #define HWY_COMPILE_ALL_ATTAINABLE
+#define HWY_WANT_AVX3_DL  // AVX-512 since Ice Lake and Zen 4: transposes bits in one instruction
 #define HWY_BROKEN_EMU128 0  // the portable one; what Highway mistrusts in g++ 12.2 is not used here
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
 #undef HWY_TARGET_INCLUDE
@@ -19,6 +20,10 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
+#if HWY_TARGET == HWY_AVX3_DL
+#pragma GCC push_options
+#pragma GCC target("gfni")  // Highway 1.0 leaves it out
+#endif
 namespace salma::saliency {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -67,6 +72,7 @@ void fill(const TBitmapLayout& layout,
     HWY_ALIGN std::uint64_t rows[kMaxWords * kBandRows] = {};  // [word][row]
     HWY_ALIGN std::uint64_t row[kMaxWords + 2] = {};
     for (int y = 0; y < window.rows; y += kBandRows) {
+        bool some = false;
         for (int r = 0; r < std::min(kBandRows, window.rows - y); ++r) {
             bitsOf(window.ptr<std::uint8_t>(y + r), window.cols, bin, row);
             std::size_t pixels = 0;
@@ -75,6 +81,12 @@ void fill(const TBitmapLayout& layout,
                 pixels += hwy::PopCount(row[i]);
             }
             perRow[y + r] = static_cast<std::uint16_t>(pixels);
+            some = some || pixels > 0;
+        }
+        if (!some) {
+            for (int shift = 0; shift <= 2 * layout.reach; ++shift)
+                std::fill_n(bitmap + shift * layout.stride + y, kBandRows, std::uint64_t{0});
+            continue;
         }
         for (int r = 0; r < kBandRows; r += kWords)
             for (int shift = 0; shift <= 2 * layout.reach; ++shift) {
@@ -90,7 +102,7 @@ void fill(const TBitmapLayout& layout,
 
 /// Adds a and b to sum, bit by bit, and returns the carries.
 HWY_INLINE V64 addBits(V64& sum, V64 a, V64 b) {
-#if HWY_TARGET == HWY_AVX3
+#if HWY_TARGET <= HWY_AVX3
     const V64 carry{_mm512_ternarylogic_epi64(sum.raw, a.raw, b.raw, 0xe8)};
     sum = V64{_mm512_ternarylogic_epi64(sum.raw, a.raw, b.raw, 0x96)};
 #else
@@ -137,6 +149,40 @@ HWY_INLINE void sumRing(const std::int32_t* first,
         addCarry<4, PLANES>(addPixels<4>(bitmap, at, plane), plane);
     if (at != last) addCarry<3, PLANES>(addPixels<3>(bitmap, at, plane), plane);
 }
+
+#if HWY_TARGET == HWY_AVX3_DL
+
+/// The bytes whose bits are eight planes of eight rows.
+HWY_INLINE void joinPlanes(V64 (&p)[8], std::size_t stride, std::uint8_t* out) {
+    static_assert(kWords == 8);
+    __m512i pair[2][4];  // planes 2i and 2i+1 of even and of odd rows
+    for (int i = 0; i < 4; ++i) {
+        pair[0][i] = _mm512_unpacklo_epi64(p[2 * i].raw, p[2 * i + 1].raw);
+        pair[1][i] = _mm512_unpackhi_epi64(p[2 * i].raw, p[2 * i + 1].raw);
+    }
+    // Byte c of planes 7..0 together, as the 8 x 8 bits that the affine map of unit vectors turns.
+    HWY_ALIGN std::uint8_t order[64];
+    for (int i = 0; i < 64; ++i) order[i] = static_cast<std::uint8_t>((7 - i % 8) * 8 + i / 8);
+    const auto together = _mm512_load_si512(order);
+    const auto units = _mm512_set1_epi64(static_cast<std::int64_t>(0x8040201008040201));
+    const auto store = [&](std::size_t row, __m512i planes) {
+        const auto bits = _mm512_permutexvar_epi8(together, planes);
+        _mm512_store_si512(out + row * stride, _mm512_gf2p8affine_epi64_epi8(units, bits, 0));
+    };
+    for (std::size_t odd = 0; odd < 2; ++odd) {
+        const auto& q = pair[odd];
+        const auto low04 = _mm512_shuffle_i64x2(q[0], q[1], 0x88);
+        const auto high04 = _mm512_shuffle_i64x2(q[2], q[3], 0x88);
+        const auto low26 = _mm512_shuffle_i64x2(q[0], q[1], 0xdd);
+        const auto high26 = _mm512_shuffle_i64x2(q[2], q[3], 0xdd);
+        store(odd, _mm512_shuffle_i64x2(low04, high04, 0x88));
+        store(odd + 2, _mm512_shuffle_i64x2(low26, high26, 0x88));
+        store(odd + 4, _mm512_shuffle_i64x2(low04, high04, 0xdd));
+        store(odd + 6, _mm512_shuffle_i64x2(low26, high26, 0xdd));
+    }
+}
+
+#else
 
 /// Swaps the bits i + SHIFT of `low` with the bits i of `high`, for the bits i of `mask`.
 template <int SHIFT>
@@ -193,6 +239,8 @@ HWY_INLINE void joinPlanes(V64 (&p)[8], std::size_t stride, std::uint8_t* out) {
         }
     }
 }
+
+#endif
 
 template <int PLANES>
 void countRing(const std::int32_t* first,
@@ -294,7 +342,7 @@ template <class COUNT>
 HWY_INLINE VInts growth(VWords pairs, VInts area, VInts ring, [[maybe_unused]] VInts both) {
     const DInt d;
     VInts difference;
-#if HWY_TARGET == HWY_AVX3
+#if HWY_TARGET <= HWY_AVX3
     if constexpr (sizeof(COUNT) == 1)  // counts below 2^15
         return hn::Max(VInts{_mm512_madd_epi16(pairs.raw, both.raw)}, hn::Zero(d));
 #elif HWY_TARGET == HWY_AVX2
@@ -725,6 +773,9 @@ TKernels<COUNT> kernels() {
 
 }  // namespace HWY_NAMESPACE
 }  // namespace salma::saliency
+#if HWY_TARGET == HWY_AVX3_DL
+#pragma GCC pop_options
+#endif
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
@@ -750,7 +801,8 @@ struct TTarget {
     std::int64_t target;
 };
 
-constexpr TTarget kTargets[] = {{ESimd::avx512, HWY_AVX3},
+constexpr TTarget kTargets[] = {{ESimd::avx512dl, HWY_AVX3_DL},
+                                {ESimd::avx512, HWY_AVX3},
                                 {ESimd::avx2, HWY_AVX2},
                                 {ESimd::sse4, HWY_SSE4},
                                 {ESimd::neon, HWY_NEON},
@@ -759,7 +811,10 @@ constexpr TTarget kTargets[] = {{ESimd::avx512, HWY_AVX3},
 }  // namespace
 
 bool hasSimd(ESimd simd) {
-    const std::int64_t supported = (hwy::SupportedTargets() | HWY_EMU128) & HWY_TARGETS;
+    std::int64_t supported = (hwy::SupportedTargets() | HWY_EMU128) & HWY_TARGETS;
+#if HWY_TARGETS & HWY_AVX3_DL
+    if (__builtin_cpu_supports("gfni") == 0) supported &= ~HWY_AVX3_DL;
+#endif
     return std::any_of(std::begin(kTargets), std::end(kTargets), [&](const TTarget& t) {
         return t.simd == simd && (supported & t.target) != 0;
     });
@@ -777,6 +832,9 @@ TKernels<COUNT> kernelsFor(ESimd simd) {
     if (!hasSimd(simd))
         throw std::invalid_argument("scale saliency: this processor, or this build, has not got the "
                                     "instruction set of the option simd; auto takes the best there is");
+#if HWY_TARGETS & HWY_AVX3_DL
+    if (simd == ESimd::avx512dl) return N_AVX3_DL::kernels<COUNT>();
+#endif
 #if HWY_TARGETS & HWY_AVX3
     if (simd == ESimd::avx512) return N_AVX3::kernels<COUNT>();
 #endif

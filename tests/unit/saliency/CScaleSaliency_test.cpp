@@ -293,5 +293,43 @@ TEST(CScaleSaliency, RefusesScalesBetweenWhichThereIsNone) {
     EXPECT_THROW(CScaleSaliency{options}, std::invalid_argument);
 }
 
+TEST(CScaleSaliency, EitherRefusesSettingsAndPicturesOrFindsPeaksInside) {
+    cv::RNG random(77);
+    std::size_t refused = 0;
+    const auto wild = [&random](int low, int high) {
+        const int extremes[] = {-1, 0, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()};
+        return random.uniform(0, 12) == 0 ? extremes[random.uniform(0, 4)] : random.uniform(low, high);
+    };
+    for (int i = 0; i < 1500; ++i) {
+        TScaleSaliencyOptions options;
+        options.scaleMin = wild(-2, 20);
+        options.scaleMax = wild(0, 28);
+        options.bins = wild(0, 260);
+        options.threads = wild(0, 3);
+        options.simd = static_cast<ESimd>(random.uniform(0, 8));
+        const int types[] = {CV_8UC1, CV_8UC1, CV_8UC1, CV_8UC3, CV_16UC1, CV_32FC1};
+        cv::Mat picture(random.uniform(0, 90), random.uniform(0, 90), types[random.uniform(0, 6)]);
+        if (!picture.empty()) random.fill(picture, cv::RNG::UNIFORM, 0, 256);
+        const cv::Rect part(random.uniform(-50, 99), random.uniform(-50, 99), random.uniform(-9, 99), 40);
+        const double nan = std::numeric_limits<double>::quiet_NaN();
+        const double thresholds[] = {-1, 0, 1.3, 1e300, std::numeric_limits<double>::infinity(), nan};
+        const double yMin = thresholds[random.uniform(0, 6)];
+        try {
+            const auto found = CScaleSaliency(options).detect(picture, {yMin, std::size_t(random.uniform(0, 3)), part});
+            for (const auto& peak : found) {
+                ASSERT_GE(peak.x - options.scaleMax, 0) << i;
+                ASSERT_GE(peak.y - options.scaleMax, 0) << i;
+                ASSERT_LT(peak.x + options.scaleMax, picture.cols) << i;
+                ASSERT_LT(peak.y + options.scaleMax, picture.rows) << i;
+                ASSERT_GE(peak.Y, yMin) << i;
+            }
+        } catch (const std::invalid_argument&) {
+            ++refused;
+        }
+    }
+    EXPECT_GT(refused, 300u);
+    EXPECT_LT(refused, 1400u);
+}
+
 }  // namespace
 }  // namespace salma::saliency

@@ -42,7 +42,8 @@ TRegions above(const TRegions& peaks, double yMin) {
 /// The instruction sets of this processor, the portable one among them.
 std::vector<ESimd> paths() {
     std::vector<ESimd> some;
-    for (const auto simd : {ESimd::portable, ESimd::sse4, ESimd::avx2, ESimd::avx512, ESimd::neon})
+    for (const auto simd : {ESimd::portable, ESimd::sse4, ESimd::avx2, ESimd::avx512,
+                            ESimd::avx512dl, ESimd::neon})
         if (hasSimd(simd)) some.push_back(simd);
     return some;
 }

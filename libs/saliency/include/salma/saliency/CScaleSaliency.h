@@ -16,7 +16,15 @@ struct TScaleTables;
 enum class ELogBase { natural, two };
 
 /// Instruction sets of the inner loops; all give the same numbers.
-enum class ESimd { automatic, portable, sse4, avx2, avx512, neon };
+enum class ESimd {
+    automatic,  //!< The best of the others that there is.
+    portable,
+    sse4,
+    avx2,
+    avx512,    //!< F, BW, CD, DQ, VL (Skylake-X).
+    avx512dl,  //!< Those and VBMI, GFNI and more (Ice Lake, Zen 4).
+    neon
+};
 
 /// Whether both this program and this processor know an instruction set.
 bool hasSimd(ESimd simd);
