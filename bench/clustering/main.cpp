@@ -63,7 +63,7 @@ class CTimes : public benchmark::ConsoleReporter {
 
 void add(const std::string& name,
          const TRegions& peaks,
-         std::function<std::size_t(const TRegions&)> run) {
+         const std::function<std::size_t(const TRegions&)>& run) {
     benchmark::RegisterBenchmark(name.c_str(), [peaks, run](benchmark::State& state) {
         std::size_t regions = 0;
         for (auto _ : state) benchmark::DoNotOptimize(regions = run(peaks));

@@ -79,7 +79,7 @@ class CEllipseSearch {
             const double y = m_disc.y + static_cast<double>(j) / n;
             for (int i = -reach; i <= reach; ++i) {
                 const double value = greyAt(grey, m_disc.x + static_cast<double>(i) / n, y);
-                row[i] = table.at<std::uint8_t>(static_cast<int>(value + 0.5));
+                row[i] = table.at<std::uint8_t>(static_cast<int>(std::lround(value)));
             }
         }
     }

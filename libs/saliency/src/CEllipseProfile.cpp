@@ -29,7 +29,8 @@ CEllipseProfile::CEllipseProfile(const TScaleSaliencyOptions& options)
     : m_options(options), m_bins(options.bins) {}
 
 void CEllipseProfile::compute(const TSampledWindow& window, const TEllipseShape& shape, int sMax) {
-    m_counts.assign(static_cast<std::size_t>((sMax - m_options.scaleMin + 1) * m_bins), 0);
+    const int scales = sMax - m_options.scaleMin + 1;
+    m_counts.assign(static_cast<std::size_t>(scales) * static_cast<std::size_t>(m_bins), 0);
     countSamples(window, shape.ellipse(0, 0, 1), sMax);
     m_proportion.assign(static_cast<std::size_t>(m_bins), 0);
     m_entropy.clear();

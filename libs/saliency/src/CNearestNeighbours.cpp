@@ -8,6 +8,7 @@
 namespace salma::saliency {
 namespace {
 
+// NOLINTBEGIN(readability-identifier-naming): nanoflann's names
 /// The points as nanoflann reads them.
 struct TPoints {
     const std::vector<TPlaceAndScale>& points;
@@ -19,6 +20,7 @@ struct TPoints {
         return false;
     }
 };
+// NOLINTEND(readability-identifier-naming)
 
 /** The nearest so far. nanoflann's own set leaves to chance which of equally far points are in it;
  * this one is offered them, as its worst distance is a little larger than it is. */

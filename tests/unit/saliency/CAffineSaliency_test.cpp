@@ -208,6 +208,7 @@ TEST(CAffineSaliency, KeepsEllipsesInsideThePicture) {
     cv::RNG random(2);
     random.fill(noise, cv::RNG::UNIFORM, 0, 256);
     std::vector<TSalientRegion> discs;
+    discs.reserve(200);
     for (int i = 0; i < 200; ++i)
         discs.push_back(
             disc(random.uniform(0.0, 89.0), random.uniform(0.0, 89.0), random.uniform(3.0, 30.0)));

@@ -85,7 +85,9 @@ TEST(CGreedyClusterer, AgreesWithTheDefinitionOnRandomPeaks) {
 
 TEST(CGreedyClusterer, GivesTheSameRegionsForAnyOrderOfEqualPeaks) {
     std::vector<TSalientRegion> peaks;
-    for (int i = 0; i < 100; ++i) peaks.push_back(region(i % 10 * 4, i / 10 * 4, 6, 1, 2));
+    for (int row = 0; row < 10; ++row)
+        for (int column = 0; column < 10; ++column)
+            peaks.push_back(region(column * 4, row * 4, 6, 1, 2));
     const auto expected = CGreedyClusterer().cluster(peaks).regions;
     EXPECT_EQ(expected[0].x, 0);  // the first row's first
     EXPECT_EQ(expected[0].y, 0);
@@ -113,6 +115,7 @@ TEST(CGreedyClusterer, AgreesWithALoopOverTheKeptOnesOnManyPeaksOfWholePixelsAnd
     std::mt19937 random(7);
     std::uniform_int_distribution<int> place(0, 299), scale(4, 32), level(1, 500);
     std::vector<TSalientRegion> peaks;
+    peaks.reserve(20000);
     for (int i = 0; i < 20000; ++i)
         peaks.push_back(region(place(random), place(random), scale(random), level(random) / 250.0,
                                level(random) / 100.0));
