@@ -8,6 +8,7 @@ namespace salma::saliency {
 namespace {
 
 constexpr double kTie = 1e-11;          // a peak's least margin over its neighbours, a definition
+constexpr double kWorthPruning = 0.5;   // with yMin below this part of log(bins) most centres stay
 constexpr double kRounding = 1 - 1e-9;  // bounds are compared with a little less than yMin
 
 }  // namespace
@@ -26,9 +27,7 @@ CSaliencyTile<COUNT>::CSaliencyTile(const TScaleTables& tables, const TKernels<C
       m_peaks(m_candidates.size()) {}
 
 template <class COUNT>
-TTilePeaks CSaliencyTile<COUNT>::detect(const cv::Mat& bins,
-                                        const cv::Rect& centres,
-                                        double yMin) {
+TTilePeaks CSaliencyTile<COUNT>::detect(const cv::Mat& bins, const cv::Rect& centres, double yMin) {
     m_yMin = yMin;
     TTilePeaks found;
     const int reach = m_tables.sMax;
@@ -83,13 +82,14 @@ void CSaliencyTile<COUNT>::detectBand(const cv::Rect& centres, int row, TTilePea
         m_ringsSize = size;
     }
     m_part.present = static_cast<int>(m_present.size());
-    if (m_yMin > 0)
+    m_prunes = m_yMin >= kWorthPruning * hBound;
+    if (m_prunes)
         countNeeded({centres.width, count}, row);
     else
         countAll(row);
     for (int r = 0; r < count; ++r) {
         for (int x = 0; x < centres.width; x += kPart) {
-            if (m_yMin > 0 && m_lastScales[r][x / kPart] == 0) continue;
+            if (m_prunes && m_lastScales[r][x / kPart] == 0) continue;
             searchPart(r, x);
             emitPeaks(centres.x + x, std::min(kPart, centres.width - x), found.peaks);
         }
@@ -104,8 +104,8 @@ void CSaliencyTile<COUNT>::countBin(std::size_t present, int row, int scales) {
     const auto end = window + std::min<std::ptrdiff_t>(m_perRow[bin].end() - window, bandWindow());
     const auto occurs = [](int pixels) { return pixels > 0; };
     const auto first = std::find_if(window, end, occurs);
-    const auto last = std::find_if(std::make_reverse_iterator(end),
-                                   std::make_reverse_iterator(first), occurs);
+    const auto last =
+        std::find_if(std::make_reverse_iterator(end), std::make_reverse_iterator(first), occurs);
     const cv::Range rows(static_cast<int>(first - window), static_cast<int>(last.base() - window));
     m_kernels.count(m_tables, m_bitmaps[bin].get() + row, rows, scales, m_present.size() * m_ofBin,
                     m_rings.get() + present * m_ofBin);
@@ -143,7 +143,8 @@ std::vector<std::uint16_t> CSaliencyTile<COUNT>::leastChanges() const {
     std::vector<std::uint16_t> least;
     for (int k = 0; k < m_scales; ++k) {
         const auto& bound = m_tables.bound[static_cast<std::size_t>(k)];
-        const double perW = m_tables.wFactor[static_cast<std::size_t>(m_tables.sMin + k)] * bound.dUnit;
+        const double perW =
+            m_tables.wFactor[static_cast<std::size_t>(m_tables.sMin + k)] * bound.dUnit;
         const double d = k == 0 ? 0 : wLeast * kRounding / perW - 4;
         least.push_back(static_cast<std::uint16_t>(std::clamp(d, 0.0, 65535.0)));
     }
@@ -165,10 +166,10 @@ void CSaliencyTile<COUNT>::countNeeded(const cv::Size& centres, int row) {
         int last = 0;
         for (int r = 0; r < centres.height; ++r)
             for (int x = 0; x < centres.width; x += kPart) {
-                const auto* const overlap = m_overlap.get() + static_cast<std::size_t>(r) * m_ofBin + x;
-                m_lastScales[r][x / kPart] =
-                    m_kernels.lastScale(m_tables, overlap, scales,
-                                        std::min(kPart, centres.width - x), least.data());
+                const auto* const overlap =
+                    m_overlap.get() + static_cast<std::size_t>(r) * m_ofBin + x;
+                m_lastScales[r][x / kPart] = m_kernels.lastScale(
+                    m_tables, overlap, scales, std::min(kPart, centres.width - x), least.data());
                 last = std::max(last, m_lastScales[r][x / kPart]);
             }
         scales = last > 0 ? last + 2 : 0;
@@ -179,7 +180,7 @@ template <class COUNT>
 void CSaliencyTile<COUNT>::searchPart(int bandRow, int x) {
     const auto r = static_cast<std::size_t>(bandRow);
     const COUNT* const rings = m_rings.get() + r * m_present.size() * m_ofBin + x;
-    if (m_yMin > 0)
+    if (m_prunes)
         m_kernels.searchAbove(m_tables, rings, m_overlap.get() + r * m_ofBin + x,
                               m_lastScales[bandRow][x / kPart], m_yMin, m_part);
     else
@@ -201,7 +202,8 @@ void CSaliencyTile<COUNT>::emitPeaks(int firstColumn, int count, std::vector<TPe
                           static_cast<std::uint16_t>(m_tables.sMin + c.k), h[i % kTogether], w};
         peaks += h[i % kTogether] * w >= m_yMin ? 1 : 0;
     }
-    found.insert(found.end(), m_peaks.begin(), m_peaks.begin() + static_cast<std::ptrdiff_t>(peaks));
+    found.insert(found.end(), m_peaks.begin(),
+                 m_peaks.begin() + static_cast<std::ptrdiff_t>(peaks));
 }
 
 template <class COUNT>

@@ -69,15 +69,16 @@ class CSaliencyTile {
     TKernels<COUNT> m_kernels;
     int m_scales;
     double m_yMin{0};
-    std::size_t m_ofBin;  //!< Counts of a bin in a row of centres.
+    bool m_prunes{false};  //!< Whether the band leaves out what m_yMin excludes before counting it.
+    std::size_t m_ofBin;   //!< Counts of a bin in a row of centres.
 
     std::vector<hwy::AlignedFreeUniquePtr<std::uint64_t[]>> m_bitmaps;  //!< Of each bin.
-    std::vector<std::vector<std::uint16_t>> m_perRow;  //!< [bin][row] pixels.
-    std::vector<std::size_t> m_present;              //!< Bins, ascending.
-    hwy::AlignedFreeUniquePtr<COUNT[]> m_rings;      //!< [band row][present][scale][lane]
+    std::vector<std::vector<std::uint16_t>> m_perRow;                   //!< [bin][row] pixels.
+    std::vector<std::size_t> m_present;                                 //!< Bins, ascending.
+    hwy::AlignedFreeUniquePtr<COUNT[]> m_rings;  //!< [band row][present][scale][lane]
     std::size_t m_ringsSize{0};
     hwy::AlignedFreeUniquePtr<std::uint16_t[]> m_overlap;  //!< [band row][scale][lane]
-    int m_lastScales[kBandRows][kLanes / kPart]{};  //!< The last that can have a peak, or 0.
+    int m_lastScales[kBandRows][kLanes / kPart]{};         //!< The last that can have a peak, or 0.
     TPart m_part;
     std::vector<TCandidate> m_candidates;  //!< Peaks of entropy of a part, by centre, scale.
     std::vector<TPeak> m_peaks;            //!< Those of them that are peaks above the threshold.

@@ -172,7 +172,8 @@ CScaleSaliency::CScaleSaliency(const TScaleSaliencyOptions& options) : m_options
 }
 
 TRegions CScaleSaliency::detect(const cv::Mat& picture, const TPeakLimits& limits) const {
-    if (std::isnan(limits.yMin)) throw std::invalid_argument("scale saliency: y_min is not a number");
+    if (std::isnan(limits.yMin))
+        throw std::invalid_argument("scale saliency: y_min is not a number");
     const int reach = m_options.scaleMax;
     const bool tooSmall = std::min(picture.rows, picture.cols) <= 2 * reach;
     const cv::Mat grey = greyOf(picture);

@@ -88,7 +88,8 @@ void TScaleTables::scaleBounds() {
         b.whole = static_cast<std::uint16_t>(whole);
         b.toTop = static_cast<std::uint16_t>(toTop);
         b.perTop = static_cast<std::uint16_t>(65536.0 * whole / (before * toTop));
-        b.toD = static_cast<std::uint16_t>(kTop * perWhole(k) / largest * TBoundScale::kWhole / whole);
+        b.toD =
+            static_cast<std::uint16_t>(kTop * perWhole(k) / largest * TBoundScale::kWhole / whole);
         b.dUnit = 65536 / kTop * largest / TBoundScale::kWhole;
     }
 }

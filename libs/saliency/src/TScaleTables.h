@@ -40,13 +40,13 @@ struct TRing {
  * overlap being the sum of min(r/R, n/N) over bins. */
 struct TBoundScale {
     static constexpr int kWhole = 21845;  //!< A whole overlap; thrice that still is 16 bits.
-    std::uint16_t whole{0};       //!< R perPixel, a little less than kWhole.
-    std::uint16_t perPixel{0};    //!< Of the ring.
-    std::uint16_t toTop{0};       //!< Power of two that brings N to 2^15 or more.
-    std::uint16_t perTop{0};      //!< Of n toTop / 65536, rounded down.
-    std::uint16_t toD{0};         //!< Of (whole - overlap) / 65536, rounded down.
-    double dUnit{0};              //!< D of the result 1.
-    float log2Area{0};            //!< log2(N + R).
+    std::uint16_t whole{0};               //!< R perPixel, a little less than kWhole.
+    std::uint16_t perPixel{0};            //!< Of the ring.
+    std::uint16_t toTop{0};               //!< Power of two that brings N to 2^15 or more.
+    std::uint16_t perTop{0};              //!< Of n toTop / 65536, rounded down.
+    std::uint16_t toD{0};                 //!< Of (whole - overlap) / 65536, rounded down.
+    double dUnit{0};                      //!< D of the result 1.
+    float log2Area{0};                    //!< log2(N + R).
 };
 
 /// What depends on the options alone. Arrays are indexed by the radius s = 0..sMax [px].
@@ -57,15 +57,15 @@ struct TScaleTables {
     int sMax;
     int bins;
     bool smooth;
-    std::vector<int> area;        //!< Pixels N(s) of disc(s).
-    std::vector<double> nLogN;    //!< n log n, for n = 0..N(sMax).
-    std::vector<double> dFactor;  //!< 2 / (N(s) N(s-1)).
-    std::vector<double> wFactor;  //!< s^2 / (2s - 1).
-    std::vector<double> wMax;     //!< Largest W that any picture can have.
-    double logTwo;                //!< log 2 in the chosen base.
+    std::vector<int> area;           //!< Pixels N(s) of disc(s).
+    std::vector<double> nLogN;       //!< n log n, for n = 0..N(sMax).
+    std::vector<double> dFactor;     //!< 2 / (N(s) N(s-1)).
+    std::vector<double> wFactor;     //!< s^2 / (2s - 1).
+    std::vector<double> wMax;        //!< Largest W that any picture can have.
+    double logTwo;                   //!< log 2 in the chosen base.
     std::vector<TBoundScale> bound;  //!< Of scales sMin..sMax.
     TBitmapLayout bitmap;
-    std::vector<TRing> rings;        //!< Of scales sMin..sMax, the first being the whole disc.
+    std::vector<TRing> rings;  //!< Of scales sMin..sMax, the first being the whole disc.
 
     int scales() const { return sMax - sMin + 1; }
     double log(double x) const;

@@ -19,15 +19,15 @@ struct TPart {
 
     template <class T>
     using TBuffer = hwy::AlignedFreeUniquePtr<T[]>;
-    int present{0};                 //!< Bins that are counted.
+    int present{0};  //!< Bins that are counted.
     /// Pixels of the disc at scale k in each bin, [present][centre]; k = -1 has none.
     std::uint16_t* countsOf(int k) const { return counts.get() + (k + 1) * present * kPart; }
 
-    TBuffer<std::uint16_t> counts;  //!< Of scales -1, 0, ...
-    TBuffer<std::int32_t> change;   //!< [scale][place] sum max(0, r N' - n' R).
-    TBuffer<float> entropy;         //!< [scale][place] about H [bit].
-    TBuffer<float> wBound;          //!< [scale][place] at least W.
-    TBuffer<double> w;              //!< [scale][place] W.
+    TBuffer<std::uint16_t> counts;    //!< Of scales -1, 0, ...
+    TBuffer<std::int32_t> change;     //!< [scale][place] sum max(0, r N' - n' R).
+    TBuffer<float> entropy;           //!< [scale][place] about H [bit].
+    TBuffer<float> wBound;            //!< [scale][place] at least W.
+    TBuffer<double> w;                //!< [scale][place] W.
     std::vector<int> firstScale;      //!< At which a bin occurs about the centres, ascending.
     std::vector<int> order;           //!< The bins in that order.
     TBuffer<std::uint32_t> certain;   //!< [word][place] bit s: a peak of entropy at scale s.

@@ -148,9 +148,11 @@ TEST(CScaleSaliency, LeavesTheBestInTheirOrder) {
     auto options = TScaleSaliencyOptions();
     const auto all = CScaleSaliency(options).detect(picture);
     for (const int threads : {1, 3})
-        for (const std::size_t best : {std::size_t{1}, std::size_t{50}, all.size() - 1, all.size() + 1}) {
+        for (const std::size_t best :
+             {std::size_t{1}, std::size_t{50}, all.size() - 1, all.size() + 1}) {
             auto byY = all;
-            std::stable_sort(byY.begin(), byY.end(), [](const auto& a, const auto& b) { return a.Y > b.Y; });
+            std::stable_sort(byY.begin(), byY.end(),
+                             [](const auto& a, const auto& b) { return a.Y > b.Y; });
             byY.resize(std::min(best, byY.size()));
             std::stable_sort(byY.begin(), byY.end(), [](const auto& a, const auto& b) {
                 return std::make_tuple(a.y, a.x, a.s) < std::make_tuple(b.y, b.x, b.s);
@@ -164,12 +166,14 @@ TEST(CScaleSaliency, TakesTheFirstOfEqualPeaks) {
     cv::Mat picture(64, 300, CV_8UC1);  // a pattern that repeats, so that peaks of one Y do
     for (int y = 0; y < picture.rows; ++y)
         for (int x = 0; x < picture.cols; ++x)
-            picture.at<std::uint8_t>(y, x) = (x % 20) * (x % 20) + (y % 20) * (y % 20) < 70 ? 200 : 40;
+            picture.at<std::uint8_t>(y, x) =
+                (x % 20) * (x % 20) + (y % 20) * (y % 20) < 70 ? 200 : 40;
     const CScaleSaliency detector(smallScales());
     const auto all = detector.detect(picture);
     const auto largest = std::max_element(all.begin(), all.end(),
                                           [](const auto& a, const auto& b) { return a.Y < b.Y; });
-    ASSERT_GT(std::count_if(all.begin(), all.end(), [&](const auto& p) { return p.Y == largest->Y; }), 1);
+    ASSERT_GT(
+        std::count_if(all.begin(), all.end(), [&](const auto& p) { return p.Y == largest->Y; }), 1);
     expectIdentical(detector.detect(picture, {0, 1}), {*largest});
 }
 
@@ -177,7 +181,8 @@ TEST(CScaleSaliency, FindsInAPartOfThePictureWhatIsThereInTheWhole) {
     const cv::Mat picture = texture(190, 150, 16);
     const CScaleSaliency detector;
     const auto all = detector.detect(picture);
-    for (const cv::Rect& part : {cv::Rect(40, 50, 70, 30), cv::Rect(-5, -9, 60, 800), cv::Rect(90, 80, 1, 1)}) {
+    for (const cv::Rect& part :
+         {cv::Rect(40, 50, 70, 30), cv::Rect(-5, -9, 60, 800), cv::Rect(90, 80, 1, 1)}) {
         TRegions expected;
         for (const auto& peak : all)
             if (part.contains(cv::Point2d(peak.x, peak.y))) expected.push_back(peak);
@@ -189,7 +194,8 @@ TEST(CScaleSaliency, FindsInAPartOfThePictureWhatIsThereInTheWhole) {
 
 TEST(CScaleSaliency, TakesTheGreyOfColourPictures) {
     cv::Mat colour;
-    cv::merge(std::vector<cv::Mat>{texture(60, 50, 17), texture(60, 50, 18), texture(60, 50, 19)}, colour);
+    cv::merge(std::vector<cv::Mat>{texture(60, 50, 17), texture(60, 50, 18), texture(60, 50, 19)},
+              colour);
     cv::Mat grey;
     cv::cvtColor(colour, grey, cv::COLOR_BGR2GRAY);
     const CScaleSaliency detector(smallScales());
@@ -297,8 +303,10 @@ TEST(CScaleSaliency, EitherRefusesSettingsAndPicturesOrFindsPeaksInside) {
     cv::RNG random(77);
     std::size_t refused = 0;
     const auto wild = [&random](int low, int high) {
-        const int extremes[] = {-1, 0, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()};
-        return random.uniform(0, 12) == 0 ? extremes[random.uniform(0, 4)] : random.uniform(low, high);
+        const int extremes[] = {-1, 0, std::numeric_limits<int>::min(),
+                                std::numeric_limits<int>::max()};
+        return random.uniform(0, 12) == 0 ? extremes[random.uniform(0, 4)]
+                                          : random.uniform(low, high);
     };
     for (int i = 0; i < 1500; ++i) {
         TScaleSaliencyOptions options;
@@ -310,12 +318,15 @@ TEST(CScaleSaliency, EitherRefusesSettingsAndPicturesOrFindsPeaksInside) {
         const int types[] = {CV_8UC1, CV_8UC1, CV_8UC1, CV_8UC3, CV_16UC1, CV_32FC1};
         cv::Mat picture(random.uniform(0, 90), random.uniform(0, 90), types[random.uniform(0, 6)]);
         if (!picture.empty()) random.fill(picture, cv::RNG::UNIFORM, 0, 256);
-        const cv::Rect part(random.uniform(-50, 99), random.uniform(-50, 99), random.uniform(-9, 99), 40);
+        const cv::Rect part(random.uniform(-50, 99), random.uniform(-50, 99),
+                            random.uniform(-9, 99), 40);
         const double nan = std::numeric_limits<double>::quiet_NaN();
-        const double thresholds[] = {-1, 0, 1.3, 1e300, std::numeric_limits<double>::infinity(), nan};
+        const double thresholds[] = {-1, 0, 1.3, 1e300, std::numeric_limits<double>::infinity(),
+                                     nan};
         const double yMin = thresholds[random.uniform(0, 6)];
         try {
-            const auto found = CScaleSaliency(options).detect(picture, {yMin, std::size_t(random.uniform(0, 3)), part});
+            const auto found = CScaleSaliency(options).detect(
+                picture, {yMin, std::size_t(random.uniform(0, 3)), part});
             for (const auto& peak : found) {
                 ASSERT_GE(peak.x - options.scaleMax, 0) << i;
                 ASSERT_GE(peak.y - options.scaleMax, 0) << i;

@@ -66,8 +66,8 @@ class CPlain {
         const double range = std::max(high - low, 1.0);
         for (int y = 0; y < grey.rows; ++y)
             for (int x = 0; x < grey.cols; ++x)
-                m_bins.at<int>(y, x) = static_cast<int>(
-                    std::lround((grey.at<std::uint8_t>(y, x) - low) * (m_options.bins - 1) / range));
+                m_bins.at<int>(y, x) = static_cast<int>(std::lround(
+                    (grey.at<std::uint8_t>(y, x) - low) * (m_options.bins - 1) / range));
     }
 
     double entropy(const std::vector<int>& counts, int area) const {

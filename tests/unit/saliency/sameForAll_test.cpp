@@ -18,7 +18,8 @@ using TRegions = std::vector<observations::TSalientRegion>;
 std::string asText(const observations::TSalientRegion& r) {
     std::ostringstream out;
     out.precision(17);
-    out << "x " << r.x << " y " << r.y << " s " << r.s << " H " << r.H << " W " << r.W << " Y " << r.Y;
+    out << "x " << r.x << " y " << r.y << " s " << r.s << " H " << r.H << " W " << r.W << " Y "
+        << r.Y;
     return out.str();
 }
 
@@ -28,8 +29,7 @@ std::string asText(const observations::TSalientRegion& r) {
             return ::testing::AssertionFailure() << "peak " << i << ": " << asText(found[i])
                                                  << " instead of " << asText(expected[i]);
     if (found.size() == expected.size()) return ::testing::AssertionSuccess();
-    return ::testing::AssertionFailure()
-           << found.size() << " peaks instead of " << expected.size();
+    return ::testing::AssertionFailure() << found.size() << " peaks instead of " << expected.size();
 }
 
 TRegions above(const TRegions& peaks, double yMin) {
@@ -42,8 +42,8 @@ TRegions above(const TRegions& peaks, double yMin) {
 /// The instruction sets of this processor, the portable one among them.
 std::vector<ESimd> paths() {
     std::vector<ESimd> some;
-    for (const auto simd : {ESimd::portable, ESimd::sse4, ESimd::avx2, ESimd::avx512,
-                            ESimd::avx512dl, ESimd::neon})
+    for (const auto simd :
+         {ESimd::portable, ESimd::sse4, ESimd::avx2, ESimd::avx512, ESimd::avx512dl, ESimd::neon})
         if (hasSimd(simd)) some.push_back(simd);
     return some;
 }
@@ -150,7 +150,8 @@ TScaleSaliencyOptions randomOptions(cv::RNG& random) {
     TScaleSaliencyOptions options;
     options.scaleMin = random.uniform(0, 20) == 0 ? random.uniform(1, 50) : random.uniform(1, 12);
     options.scaleMax = std::min(
-        128, options.scaleMin + 2 + (random.uniform(0, 20) == 0 ? random.uniform(0, 80) : random.uniform(0, 20)));
+        128, options.scaleMin + 2 +
+                 (random.uniform(0, 20) == 0 ? random.uniform(0, 80) : random.uniform(0, 20)));
     options.bins = random.uniform(0, 3) == 0 ? random.uniform(2, 257) : random.uniform(8, 33);
     options.logBase = random.uniform(0, 2) == 0 ? ELogBase::two : ELogBase::natural;
     options.smooth = random.uniform(0, 3) != 0;
@@ -164,9 +165,11 @@ TEST(ScaleSaliencyPaths, GivePlainPeaksForAThousandRandomSettings) {
     for (unsigned i = 0; i < 1000; ++i) {
         const auto options = randomOptions(random);
         const int window = 2 * options.scaleMax + 1;
-        const cv::Mat grey = synthetic(window + random.uniform(-1, options.scaleMax > 40 ? 9 : 40),
-                                       window + random.uniform(-1, options.scaleMax > 40 ? 5 : 14), i);
-        expectAsPlain(grey, options, "setting " + std::to_string(i) + "\n" + options.asIni("saliency"));
+        const cv::Mat grey =
+            synthetic(window + random.uniform(-1, options.scaleMax > 40 ? 9 : 40),
+                      window + random.uniform(-1, options.scaleMax > 40 ? 5 : 14), i);
+        expectAsPlain(grey, options,
+                      "setting " + std::to_string(i) + "\n" + options.asIni("saliency"));
     }
 }
 
