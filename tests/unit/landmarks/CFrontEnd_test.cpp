@@ -43,6 +43,20 @@ TEST(CFrontEnd, FindsThePaintingWithItsPlaceAndSizeFromSeveralSides) {
     }
 }
 
+TEST(CFrontEnd, FindsThePaintingFromKadirsClustersToo) {
+    TSeeingOptions options;
+    options.clustering.method = saliency::EClustering::kadir;
+    const TView v = view(0.5, 0.5, 5);
+    const auto found = CFrontEnd(options).process(v).landmarks;
+    const auto greedy = CFrontEnd().process(v).landmarks;
+    ASSERT_EQ(found.size(), 1u);
+    ASSERT_EQ(greedy.size(), 1u);
+    EXPECT_NEAR(found[0].width, 0.5, 0.05);
+    EXPECT_NEAR(found[0].height, 0.4, 0.05);
+    ASSERT_FALSE(found[0].regions.empty());
+    EXPECT_NE(found[0].regions[0].x, greedy[0].regions[0].x) << "the option has no effect";
+}
+
 TEST(CFrontEnd, StoresNothingOfABareWallAndSaysSo) {
     const auto result = CFrontEnd().process(view(0, 0, 5, false));
     EXPECT_TRUE(result.landmarks.empty());
