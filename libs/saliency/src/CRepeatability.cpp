@@ -41,7 +41,7 @@ TCommonRegions commonRegions(const TRegionView& view,
     for (std::size_t i = 0; i < view.regions.size(); ++i) {
         const TEllipse& region = view.regions[i];
         const auto image = mapped(H_other_view, region);
-        // What lies beyond the plane's horizon would appear upside down.
+        // What lies beyond the horizon, from the picture's middle, would appear upside down.
         if (!image || !(depth(H_other_view, region.u, region.v) * inFront > 0)) continue;
         if (!isInside(region, view.picture) || !isInside(*image, other)) continue;
         common.indices.push_back(i);

@@ -304,7 +304,7 @@ TEST(CRepeatability, LeavesOutWhatLiesBeyondTheHorizon) {
     // Horizon at x = 200; the first disc would appear at (900, 540), the second is at (1900, 1740).
     const cv::Matx33d H = shift(1500, 1500) * cv::Matx33d(1, 0, 0, 0, 1, 0, 0.005, 0, -1);
     const TRegionView first{{disc(150, 240, 10), disc(400, 240, 10)}, kPicture};
-    const TRegionView second{{*mapped(H, first.regions[1])}, {3000, 3000}};
+    const TRegionView second{{*mapped(H, first.regions[1])}, {4000, 3000}};
     const auto result = CRepeatability().compare(first, second, H);
     EXPECT_EQ(result.firstCommon, 1u);
     EXPECT_EQ(result.rate(), 1);
