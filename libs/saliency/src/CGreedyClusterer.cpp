@@ -14,8 +14,8 @@ using observations::TSalientRegion;
 
 namespace {
 
-/** The discs that were kept, each entered in every cell of a grid that it may touch, so that a point
- * meets only the few discs of its own cell. */
+/** The discs that were kept, each entered in every cell of a grid that it may touch, so that a
+ * point meets only the few discs of its own cell. */
 class CDiscs {
  public:
     explicit CDiscs(const TBox& box) : m_grid(box.left, box.top, box.right, box.bottom) {}

@@ -14,9 +14,10 @@ constexpr double kRounding = 1 - 1e-9;  // bounds are compared with a little les
 }  // namespace
 
 template <class COUNT>
-CSaliencyTile<COUNT>::CSaliencyTile(const TScaleTables& tables, const TKernels<COUNT>& kernels)
+CSaliencyTile<COUNT>::CSaliencyTile(const TScaleTables& tables, ESimd simd)
     : m_tables(tables),
-      m_kernels(kernels),
+      m_ringKernels(ringKernels<COUNT>(simd)),
+      m_searchKernels(searchKernels<COUNT>(simd)),
       m_scales(tables.scales()),
       m_ofBin(static_cast<std::size_t>(m_scales * kLanes)),
       m_bitmaps(static_cast<std::size_t>(tables.bins)),
@@ -52,8 +53,8 @@ void CSaliencyTile<COUNT>::fillBitmaps(const cv::Mat& window) {
             m_bitmaps[b] = hwy::AllocateAligned<std::uint64_t>(size);
             std::fill_n(m_bitmaps[b].get(), size, 0);
         }
-        m_kernels.fill(m_tables.bitmap, window, static_cast<std::uint8_t>(b), m_bitmaps[b].get(),
-                       m_perRow[b].data());
+        m_ringKernels.fill(m_tables.bitmap, window, static_cast<std::uint8_t>(b),
+                           m_bitmaps[b].get(), m_perRow[b].data());
     }
 }
 
@@ -107,8 +108,8 @@ void CSaliencyTile<COUNT>::countBin(std::size_t present, int row, int scales) {
     const auto last =
         std::find_if(std::make_reverse_iterator(end), std::make_reverse_iterator(first), occurs);
     const cv::Range rows(static_cast<int>(first - window), static_cast<int>(last.base() - window));
-    m_kernels.count(m_tables, m_bitmaps[bin].get() + row, rows, scales, m_present.size() * m_ofBin,
-                    m_rings.get() + present * m_ofBin);
+    m_ringKernels.count(m_tables, m_bitmaps[bin].get() + row, rows, scales,
+                        m_present.size() * m_ofBin, m_rings.get() + present * m_ofBin);
 }
 
 template <class COUNT>
@@ -132,8 +133,9 @@ void CSaliencyTile<COUNT>::countAll(int row) {
     for (std::size_t i = 0; i < m_present.size(); ++i)
         if (i != most) countBin(i, row, m_scales);
     for (std::size_t r = 0; r < kBandRows; ++r)
-        m_kernels.countRest(m_tables, static_cast<int>(m_present.size()), static_cast<int>(most),
-                            m_rings.get() + r * m_present.size() * m_ofBin);
+        m_ringKernels.countRest(m_tables, static_cast<int>(m_present.size()),
+                                static_cast<int>(most),
+                                m_rings.get() + r * m_present.size() * m_ofBin);
 }
 
 /// W >= yMin / log(bins) means this D, smoothed; the 16-bit sums lose less than 4.
@@ -160,15 +162,15 @@ void CSaliencyTile<COUNT>::countNeeded(const cv::Size& centres, int row) {
     int scales = m_scales;
     for (std::size_t i = 0; i < order.size() && scales > 0; ++i) {
         countBin(order[i], row, scales);
-        m_kernels.addOverlap(m_tables, m_rings.get() + order[i] * m_ofBin, scales, ofRow,
-                             m_overlap.get());
+        m_searchKernels.addOverlap(m_tables, m_rings.get() + order[i] * m_ofBin, scales, ofRow,
+                                   m_overlap.get());
         if (i % 2 == 0 && i + 1 < order.size()) continue;
         int last = 0;
         for (int r = 0; r < centres.height; ++r)
             for (int x = 0; x < centres.width; x += kPart) {
                 const auto* const overlap =
                     m_overlap.get() + static_cast<std::size_t>(r) * m_ofBin + x;
-                m_lastScales[r][x / kPart] = m_kernels.lastScale(
+                m_lastScales[r][x / kPart] = m_searchKernels.lastScale(
                     m_tables, overlap, scales, std::min(kPart, centres.width - x), least.data());
                 last = std::max(last, m_lastScales[r][x / kPart]);
             }
@@ -181,10 +183,10 @@ void CSaliencyTile<COUNT>::searchPart(int bandRow, int x) {
     const auto r = static_cast<std::size_t>(bandRow);
     const COUNT* const rings = m_rings.get() + r * m_present.size() * m_ofBin + x;
     if (m_prunes)
-        m_kernels.searchAbove(m_tables, rings, m_overlap.get() + r * m_ofBin + x,
-                              m_lastScales[bandRow][x / kPart], m_yMin, m_part);
+        m_searchKernels.searchAbove(m_tables, rings, m_overlap.get() + r * m_ofBin + x,
+                                    m_lastScales[bandRow][x / kPart], m_yMin, m_part);
     else
-        m_kernels.search(m_tables, rings, m_part);
+        m_searchKernels.search(m_tables, rings, m_part);
 }
 
 template <class COUNT>

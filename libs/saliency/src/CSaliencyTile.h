@@ -4,7 +4,8 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-#include "scaleKernels.h"
+#include "ringKernels.h"
+#include "searchKernels.h"
 
 namespace salma::saliency {
 
@@ -27,7 +28,7 @@ struct TTilePeaks {
 template <class COUNT>
 class CSaliencyTile {
  public:
-    CSaliencyTile(const TScaleTables& tables, const TKernels<COUNT>& kernels);
+    CSaliencyTile(const TScaleTables& tables, ESimd simd);
 
     /** \param bins The picture's cells of the histogram, CV_8UC1.
      * \param centres Which pixels are centres; at least sMax from each border. */
@@ -66,7 +67,8 @@ class CSaliencyTile {
     static constexpr std::size_t kTogether = 4;
 
     const TScaleTables& m_tables;
-    TKernels<COUNT> m_kernels;
+    TRingKernels<COUNT> m_ringKernels;
+    TSearchKernels<COUNT> m_searchKernels;
     int m_scales;
     double m_yMin{0};
     bool m_prunes{false};  //!< Whether the band leaves out what m_yMin excludes before counting it.

@@ -15,6 +15,7 @@
 #include <string>
 
 #include "CSaliencyTile.h"
+#include "simdTargets.h"
 
 namespace salma::saliency {
 
@@ -107,7 +108,7 @@ void work(const TScaleTables& tables,
           const std::function<TJob*()>& next,
           ESimd simd,
           CThreshold& threshold) {
-    CSaliencyTile<COUNT> tile(tables, kernelsFor<COUNT>(simd));
+    CSaliencyTile<COUNT> tile(tables, simd);
     for (TJob* job = next(); job != nullptr; job = next()) {
         job->found = tile.detect(bins, job->centres, threshold.yMin());
         threshold.add(job->found.peaks);
@@ -167,7 +168,7 @@ void TScaleSaliencyOptions::validate() const {
 
 CScaleSaliency::CScaleSaliency(const TScaleSaliencyOptions& options) : m_options(options) {
     m_options.validate();
-    static_cast<void>(kernelsFor<std::uint8_t>(options.simd));  // throws if there are none
+    static_cast<void>(availableSimd(options.simd));  // throws if it is not
     m_tables = std::make_shared<const TScaleTables>(m_options);
 }
 

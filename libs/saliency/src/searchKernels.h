@@ -4,7 +4,6 @@
 #include <hwy/aligned_allocator.h>
 
 #include <array>
-#include <opencv2/core/mat.hpp>
 
 #include "TScaleTables.h"
 
@@ -35,36 +34,12 @@ struct TPart {
     std::array<std::uint8_t, kPart> place{};  //!< Of each centre.
 };
 
-/** The inner loops. The same source is compiled once for each instruction set. What is reported or
- * decides comes from integers and from doubles in one order of operations, so that every set gives
- * the same peaks; floats only say what needs no closer look. */
+/** The inner loops that turn counts of ring pixels into marks of peaks. The same source is compiled
+ * once for each instruction set. What is reported or decides comes from integers and from doubles
+ * in one order of operations, so that every set gives the same peaks; floats only say what needs no
+ * closer look. */
 template <class COUNT>
-struct TKernels {
-    /** Writes the bitmap of one bin.
-     * \param bins First pixel of the window; the window has [height x width] pixels, height at
-     * most kTileRows + 2 reach, width at most kLanes + 2 reach.
-     * \param perRow [height] how many pixels of a row are in the bin. */
-    void (*fill)(const TBitmapLayout& layout,
-                 const cv::Mat& window,
-                 std::uint8_t bin,
-                 std::uint64_t* bitmap,
-                 std::uint16_t* perRow){nullptr};
-
-    /** How many pixels of a bin lie in each ring about the kLanes centres of kBandRows rows.
-     * \param bitmap The bin's, from the band's first row on.
-     * \param rows Of the window, from the band's first on, that have pixels of the bin.
-     * \param scales How many, from the smallest.
-     * \param out [row][scale][lane], rows `stride` apart. */
-    void (*count)(const TScaleTables& tables,
-                  const std::uint64_t* bitmap,
-                  const cv::Range& rows,
-                  int scales,
-                  std::size_t stride,
-                  COUNT* out){nullptr};
-
-    /// Counts the bin `which` from the other ones. \param rings Of a row, [present][scale][lane].
-    void (*countRest)(const TScaleTables& tables, int present, int which, COUNT* rings){nullptr};
-
+struct TSearchKernels {
     /** Adds what a bin has in common between ring and disc before, rounded down.
      * \param rings Result of `count`. \param overlap [row][scale][lane] */
     void (*addOverlap)(const TScaleTables& tables,
@@ -99,6 +74,6 @@ struct TKernels {
 
 /// \throw std::invalid_argument if this processor or this program has not got `simd`.
 template <class COUNT>
-TKernels<COUNT> kernelsFor(ESimd simd);
+TSearchKernels<COUNT> searchKernels(ESimd simd);
 
 }  // namespace salma::saliency
