@@ -102,6 +102,8 @@ const char* asString(ERefusal reason) {
             return "none";
         case ERefusal::noPicture:
             return "no picture";
+        case ERefusal::badWall:
+            return "bad wall";
         case ERefusal::badRectangle:
             return "bad rectangle";
         case ERefusal::outsidePicture:
@@ -124,6 +126,7 @@ ERefusal CRectifier::check(const cv::Mat& grey,
     if (grey.empty() || grey.cols != static_cast<int>(view.camera().ncols) ||
         grey.rows != static_cast<int>(view.camera().nrows))
         return ERefusal::noPicture;
+    if (!view.wall().covariance.allFinite()) return ERefusal::badWall;
     const auto allowed = [&](double size) {
         return size >= m_options.minSize && size <= m_options.maxSize;
     };

@@ -81,22 +81,78 @@ TEST(CRectifier, FillsTheFieldsOfThePatch) {
     EXPECT_TRUE(patch->keypoints.empty());
 }
 
-TEST(CRectifier, SaysWhyThereIsNoPatch) {
+TEST(CRectifier, RefusesRectanglesThatAreNone) {
     const CWallView view = viewFrom(0, test::wallLine(2, 0));
     EXPECT_EQ(refusalOf(view, kPlace), ERefusal::none);
-    EXPECT_EQ(refusalOf(view, {-0.4, 0.3, 2.5, 0.9}), ERefusal::outsidePicture);
-    EXPECT_EQ(refusalOf(view, {-0.4, 0.3, -0.39, 0.9}), ERefusal::badRectangle);
-    EXPECT_EQ(refusalOf(view, {0.4, 0.3, -0.4, 0.9}), ERefusal::badRectangle);
+    EXPECT_EQ(refusalOf(view, {-0.4, 0.3, -0.39, 0.9}), ERefusal::badRectangle) << "too narrow";
+    EXPECT_EQ(refusalOf(view, {-0.4, 0.3, 0.4, 4.5}), ERefusal::badRectangle) << "too high";
+    EXPECT_EQ(refusalOf(view, {0.4, 0.3, -0.4, 0.9}), ERefusal::badRectangle) << "inside out";
     EXPECT_EQ(refusalOf(view, {std::nan(""), 0.3, 0.4, 0.9}), ERefusal::badRectangle);
-    EXPECT_EQ(refusalOf(viewFrom(0, test::wallLine(18, 0)), {-1, 0, 1, 1}), ERefusal::coarse);
-    const CWallView along = viewFrom(0, test::wallLine(0.8, 1.45));  // 0.8 m beside the camera
-    EXPECT_EQ(refusalOf(along, {6.4, 0.3, 6.8, 0.9}), ERefusal::grazing);
+}
+
+TEST(CRectifier, RefusesEntitiesThatThePictureCuts) {
+    const CWallView view = viewFrom(0, test::wallLine(2, 0));
+    EXPECT_EQ(refusalOf(view, {-0.4, 0.3, 2.5, 0.9}), ERefusal::outsidePicture);
+    EXPECT_EQ(refusalOf(view, {-0.4, 0.3, 0.4, 1.9}), ERefusal::outsidePicture);
+}
+
+TEST(CRectifier, RefusesWhatLiesBehindTheCamera) {
     EXPECT_EQ(refusalOf(viewFrom(M_PI, test::wallLine(2, 0)), kPlace), ERefusal::outsidePicture);
+    // partly behind: the wall passes beside the camera
+    const CWallView beside = viewFrom(0, test::wallLine(0.5, M_PI_2));
+    EXPECT_EQ(refusalOf(beside, {-0.5, 0.3, 1.5, 0.9}), ERefusal::outsidePicture);
+}
+
+TEST(CRectifier, RefusesFrom75DegreesOn) {
+    for (const double degrees : {74.5, 75.5}) {
+        // 3 m to the poster, which is small: it is the same incidence all over it
+        const double alpha = mrpt::DEG2RAD(degrees);
+        const CWallView view(test::pannedCamera(), test::panTiltPose({0, 0, 0.5}, 0, 0),
+                             test::wallLine(3 * std::cos(alpha), alpha));
+        const double u = 3 * std::sin(alpha);
+        EXPECT_NEAR(view.incidence(u, 0.5), alpha, 1e-9);
+        EXPECT_EQ(refusalOf(view, {u - 0.03, 0.47, u + 0.03, 0.53}),
+                  degrees < 75 ? ERefusal::none : ERefusal::grazing);
+    }
+}
+
+TEST(CRectifier, RefusesBelow40PixelsPerMetre) {
+    // 705 px of focal length: 40 px/m at 17.6 m
+    const auto at = [](double distance) {
+        const CWallView view(test::pannedCamera(), test::panTiltPose({0, 0, 0.5}, 0, 0),
+                             test::wallLine(distance, 0));
+        return refusalOf(view, {-0.2, 0.4, 0.2, 0.6});
+    };
+    EXPECT_EQ(at(17.4), ERefusal::none);
+    EXPECT_EQ(at(17.8), ERefusal::coarse);
+}
+
+TEST(CRectifier, RefusesPicturesThatAreNone) {
+    const CWallView view = viewFrom(0, test::wallLine(2, 0));
     EXPECT_EQ(CRectifier().rectify({}, view, kPlace).refusal, ERefusal::noPicture);
     const cv::Mat other(100, 100, CV_8UC1, cv::Scalar(0));
     EXPECT_EQ(CRectifier().rectify(other, view, kPlace).refusal, ERefusal::noPicture);
     const cv::Mat colour(480, 640, CV_8UC3);
     EXPECT_THROW(CRectifier().rectify(colour, view, kPlace), std::invalid_argument);
+}
+
+TEST(CRectifier, RefusesPosesAndWallsThatAreNoNumbers) {
+    const double nan = std::nan("");
+    const auto wall = test::wallLine(2, 0);
+    for (const auto& pose :
+         {test::panTiltPose({nan, 0, 0.5}, 0, 0), test::panTiltPose({0, 0, nan}, 0, 0),
+          test::panTiltPose({0, 0, 0.5}, nan, 0)}) {
+        const CWallView view(test::pannedCamera(), pose, wall);
+        EXPECT_EQ(refusalOf(view, kPlace), ERefusal::outsidePicture);
+    }
+    EXPECT_THROW(viewFrom(0, test::wallLine(2, nan)), std::invalid_argument) << "no laser line";
+    auto unsure = wall;
+    unsure.covariance(0, 1) = nan;
+    EXPECT_EQ(refusalOf(viewFrom(0, unsure), kPlace), ERefusal::badWall);
+    auto camera = test::pannedCamera();
+    camera.setIntrinsicParamsFromValues(705, 705, nan, 239.5);
+    const CWallView view(camera, test::panTiltPose({0, 0, 0.5}, 0, 0), wall);
+    EXPECT_EQ(refusalOf(view, kPlace), ERefusal::outsidePicture);
 }
 
 TEST(CRectifier, LimitsTheResolutionOfACloseView) {
@@ -108,8 +164,9 @@ TEST(CRectifier, LimitsTheResolutionOfACloseView) {
     EXPECT_EQ(patch->picture.getWidth(), 80U);
 }
 
-/// Mean NEES of (x, y, yaw) and of z when wall, pixel and camera are drawn around the given view.
-std::pair<double, double> poseNees(const CWallView& truth, double u, double v) {
+/// Mean NEES of all six coordinates over `runs`, and of (x, y, yaw) alone, when everything that the
+/// covariance counts is drawn around the given view.
+std::pair<double, double> poseNees(const CWallView& truth, double u, double v, int runs) {
     const TRectificationOptions options;
     const CRectifier rectifier(options);
     std::mt19937 random(3);
@@ -117,8 +174,7 @@ std::pair<double, double> poseNees(const CWallView& truth, double u, double v) {
     const Eigen::Vector3d X = truth.point(u, v);
     const mrpt::math::TPoint2D pixel = *truth.toPixel(u, v);
     std::pair<double, double> nees{0, 0};
-    constexpr int kRuns = 400;
-    for (int i = 0; i < kRuns; ++i) {
+    for (int i = 0; i < runs; ++i) {
         laser::TLine wall = truth.wall();
         wall.rho += std::sqrt(wall.covariance(0, 0)) * n(random) + options.wallSigma * n(random);
         wall.alpha += std::sqrt(wall.covariance(1, 1)) * n(random);
@@ -134,28 +190,33 @@ std::pair<double, double> poseNees(const CWallView& truth, double u, double v) {
         const auto uv = seen.toWall(
             {pixel.x + options.cameraSigma * n(random), pixel.y + options.cameraSigma * n(random)});
         const auto pose = rectifier.pose(seen, uv->x, uv->y);
-        const Eigen::Vector3d error(
-            pose.mean.x() - X.x(), pose.mean.y() - X.y(),
-            mrpt::math::wrapToPi(pose.mean.yaw() - (truth.wall().alpha - M_PI_2)));
-        Eigen::Matrix3d P;
+        Eigen::Matrix<double, 6, 1> error;
+        error << pose.mean.x() - X.x(), pose.mean.y() - X.y(),
+            pose.mean.z() - X.z() + options.heightSigma * n(random),
+            mrpt::math::wrapToPi(pose.mean.yaw() - (truth.wall().alpha - M_PI_2)),
+            options.tiltSigma * n(random), options.tiltSigma * n(random);
+        const Eigen::Matrix<double, 6, 6> P = pose.cov.asEigen();
+        nees.first += error.dot(P.inverse() * error) / runs;
+        const Eigen::Vector3d e(error[0], error[1], error[3]);
+        Eigen::Matrix3d Q;
         const int rows[] = {0, 1, 3};
         for (int r = 0; r < 3; ++r)
-            for (int c = 0; c < 3; ++c) P(r, c) = pose.cov(rows[r], rows[c]);
-        nees.first += error.dot(P.inverse() * error) / kRuns;
-        const double height = pose.mean.z() - X.z() + options.heightSigma * n(random);
-        nees.second += height * height / pose.cov(2, 2) / kRuns;
+            for (int c = 0; c < 3; ++c) Q(r, c) = P(rows[r], rows[c]);
+        nees.second += e.dot(Q.inverse() * e) / runs;
     }
     return nees;
 }
 
 TEST(CRectifier, StatesTheCovarianceOfThePoseThatTheErrorsHave) {
-    for (const double alpha : {0.0, 0.6, 1.1, -1.1}) {
+    constexpr int kRuns = 2000;
+    const auto half = [](int freedom) { return 1.96 * std::sqrt(2.0 * freedom / kRuns); };
+    for (const double alpha : {0.0, 0.6, -0.9, 1.1, -1.1}) {  // 63 deg
         laser::TLine wall = test::wallLine(1.5, alpha);
         wall.covariance << 2.5e-5, 0, 0, 1e-4;
         const CWallView view = viewFrom(0.1, wall);
-        const auto nees = poseNees(view, 1.5 * std::tan(alpha), 0.7);
-        EXPECT_NEAR(nees.first, 3, 0.45) << alpha;  // chi-square(3): 3 +- 0.12 for 400 runs
-        EXPECT_NEAR(nees.second, 1, 0.25) << alpha;
+        const auto nees = poseNees(view, 1.5 * std::tan(alpha), 0.7, kRuns);
+        EXPECT_NEAR(nees.first, 6, half(6)) << alpha << ": 95 % interval";
+        EXPECT_NEAR(nees.second, 3, half(3)) << alpha << ": 95 % interval";
     }
 }
 

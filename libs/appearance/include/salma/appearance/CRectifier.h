@@ -40,6 +40,7 @@ struct TWallRectangle {
 enum class ERefusal {
     none,            //!< There is a patch.
     noPicture,       //!< The picture is empty, or not of the camera's size.
+    badWall,         //!< The wall line's covariance is not finite.
     badRectangle,    //!< Empty, not finite, too small or too large.
     outsidePicture,  //!< Not wholly in the picture, or behind the camera.
     grazing,         //!< More slanting than `incidence_max_deg`.
