@@ -15,6 +15,7 @@
 #include <string>
 
 #include "CSaliencyTile.h"
+#include "binTable.h"
 #include "simdTargets.h"
 
 namespace salma::saliency {
@@ -179,7 +180,8 @@ TRegions CScaleSaliency::detect(const cv::Mat& picture, const TPeakLimits& limit
     const bool tooSmall = std::min(picture.rows, picture.cols) <= 2 * reach;
     const cv::Mat grey = greyOf(picture);
     if (tooSmall) return {};
-    const cv::Mat bins = quantise(grey);
+    cv::Mat bins;
+    cv::LUT(grey, binTable(grey, m_options), bins);
     cv::Rect centres(reach, reach, grey.cols - 2 * reach, grey.rows - 2 * reach);
     if (!limits.centres.empty()) centres &= limits.centres;
     auto jobs = cut(centres);
@@ -201,21 +203,6 @@ TRegions CScaleSaliency::detect(const cv::Mat& picture, const TPeakLimits& limit
     auto regions = join(jobs);
     keepBest(limits.best, regions);
     return regions;
-}
-
-cv::Mat CScaleSaliency::quantise(const cv::Mat& grey) const {
-    double low = 0;
-    double high = 255;
-    if (m_options.stretch) cv::minMaxLoc(grey, &low, &high);
-    const double range = std::max(high - low, 1.0);
-    cv::Mat lookUp(1, 256, CV_8UC1);
-    for (int g = 0; g < 256; ++g) {
-        const double cell = (g - low) * (m_options.bins - 1) / range;
-        lookUp.at<std::uint8_t>(g) = cv::saturate_cast<std::uint8_t>(std::lround(cell));
-    }
-    cv::Mat bins;
-    cv::LUT(grey, lookUp, bins);
-    return bins;
 }
 
 }  // namespace salma::saliency

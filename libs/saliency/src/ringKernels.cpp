@@ -222,11 +222,11 @@ HWY_INLINE void joinPlanes(V64 (&p)[8], std::size_t stride, std::uint8_t* out) {
 #endif
 
 template <int PLANES>
-void countRing(const std::int32_t* first,
-               const std::int32_t* last,
-               const std::uint64_t* bitmap,
-               std::size_t stride,
-               std::uint8_t* out) {
+HWY_NOINLINE void countRing(const std::int32_t* first,
+                            const std::int32_t* last,
+                            const std::uint64_t* bitmap,
+                            std::size_t stride,
+                            std::uint8_t* out) {
     static_assert(kWords >= 2, "joinPlanes works on pairs of rows");
     for (std::size_t r = 0; r < kBandRows; r += kWords) {
         V64 planes[PLANES];
@@ -239,11 +239,11 @@ void countRing(const std::int32_t* first,
 
 /// As above, for counts beyond a byte.
 template <int PLANES>
-void countRing(const std::int32_t* first,
-               const std::int32_t* last,
-               const std::uint64_t* bitmap,
-               std::size_t stride,
-               std::uint16_t* out) {
+HWY_NOINLINE void countRing(const std::int32_t* first,
+                            const std::int32_t* last,
+                            const std::uint64_t* bitmap,
+                            std::size_t stride,
+                            std::uint16_t* out) {
     const hn::Rebind<std::uint8_t, D16> d8;
     const D16 d16;
     HWY_ALIGN std::uint8_t bytes[2][kWords * kLanes];

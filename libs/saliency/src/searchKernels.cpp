@@ -110,7 +110,7 @@ void orderBins(const TScaleTables& tables, const COUNT* rings, TPart& part) {
 
 /// Counts, changes and entropies of all scales.
 template <class COUNT>
-void sumAll(const TScaleTables& tables, const COUNT* rings, TPart& part) {
+HWY_NOINLINE void sumAll(const TScaleTables& tables, const COUNT* rings, TPart& part) {
     const D16 d16;
     const DInt di;
     const DFloat df;

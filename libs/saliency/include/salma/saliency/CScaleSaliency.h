@@ -78,8 +78,6 @@ class CScaleSaliency {
     const TScaleSaliencyOptions& options() const { return m_options; }
 
  private:
-    cv::Mat quantise(const cv::Mat& grey) const;
-
     TScaleSaliencyOptions m_options;
     std::shared_ptr<const TScaleTables> m_tables;
 };
