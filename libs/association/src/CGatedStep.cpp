@@ -174,26 +174,36 @@ std::size_t CGatedStep::openCount() const {
     return static_cast<std::size_t>(std::count(m_open.begin(), m_open.end(), true));
 }
 
-std::vector<TBranch> CGatedStep::branches() const {
+std::vector<TBranch> CGatedStep::branches(bool outsideGateToo) const {
     std::vector<TBranch> result;
     for (std::size_t i = 0; i < m_pairs.size(); ++i)
         for (const TPair& pair : m_pairs[i])
-            if (m_open[i] && pair.inGate && !pair.forbidden) result.push_back({i, pair.landmark});
+            if (m_open[i] && (pair.inGate || outsideGateToo) && !pair.forbidden)
+                result.push_back({i, pair.landmark});
     return result;
 }
 
 void CGatedStep::pair(std::size_t observation, std::size_t landmark, EReason reason) {
-    const auto pair = std::find_if(m_pairs[observation].begin(), m_pairs[observation].end(),
-                                   [&](const TPair& p) { return p.landmark == landmark; });
+    const TPair& pair = pairOf({observation, landmark});
     m_joint.add(observation, landmark);
     m_taken[landmark] = true;
     decide(observation, EVerdict::paired, reason);
     TDecision& decision = m_result.decisions[observation];
     decision.landmark = static_cast<int>(landmark);
-    decision.distance2 = pair->distance2;
-    decision.logRatio = pair->logRatio;
+    decision.distance2 = pair.distance2;
+    decision.logRatio = pair.logRatio;
     ++m_result.pairings;
-    if (!std::isnan(pair->logRatio)) m_result.logRatio += pair->logRatio;
+    if (!std::isnan(pair.logRatio)) m_result.logRatio += pair.logRatio;
+}
+
+const TPair& CGatedStep::pairOf(const TBranch& branch) const {
+    const auto& pairs = m_pairs[branch.observation];
+    return *std::find_if(pairs.begin(), pairs.end(),
+                         [&](const TPair& pair) { return pair.landmark == branch.landmark; });
+}
+
+void CGatedStep::defer(std::size_t observation, EReason reason) {
+    decide(observation, EVerdict::deferred, reason);
 }
 
 EReason CGatedStep::whyUnpaired(std::size_t observation) {

@@ -34,8 +34,10 @@ class CGatedStep {
     bool isOpen(std::size_t observation) const { return m_open[observation]; }
     bool isTaken(std::size_t landmark) const { return m_taken[landmark]; }
     std::size_t openCount() const;
-    /// Pairs inside the gate that no test forbids, of all open measurements, sorted.
-    std::vector<TBranch> branches() const;
+    /// Pairs that no test forbids, of all open measurements, sorted.
+    std::vector<TBranch> branches(bool outsideGateToo = false) const;
+    /// \param branch Must be one of the measurement's pairs.
+    const TPair& pairOf(const TBranch& branch) const;
     const std::vector<TBranch>& identityPairings() const { return m_identities; }
     const CJointInnovation& joint() const { return m_joint; }
     /// True if the joint gate holds with one more pairing. Pairings by identity are taken for
@@ -51,6 +53,8 @@ class CGatedStep {
 
     /// For an open measurement that no method wants to pair any more; counts what failed jointly.
     EReason whyUnpaired(std::size_t observation);
+
+    void defer(std::size_t observation, EReason reason);
 
     /** Makes an open measurement a new landmark if it is clear of all that it could be, else defers
      * it for `reason`. \param givenPairings Distances are judged given the pairings made. */

@@ -39,6 +39,14 @@ class CInterpretationTree {
 
     TBranchTest test(std::size_t index);
 
+    /// Innovation of a branch and its covariance, as the test just made found them.
+    const Eigen::Vector2d& value(std::size_t index) const {
+        return m_branches[index].levels.back().value;
+    }
+    const Eigen::Matrix2d& covariance(std::size_t index) const {
+        return m_branches[index].levels.back().covariance;
+    }
+
     /// \return False, and nothing changed, where test() finds infinity.
     bool descend(std::size_t index);
     void ascend();

@@ -1,137 +1,198 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <salma/association/CSaliencyAssociation.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 
-#include "CChiSquareGate.h"
-#include "CGatedStep.h"
+#include "CBestFirst.h"
+#include "CScoredSearch.h"
+#include "leaveOneOut.h"
 
 namespace salma::association {
 namespace {
 
-constexpr double noScore = -std::numeric_limits<double>::infinity();
+constexpr std::size_t none = TSearchGoal::nothing;
 
-/// A pair that passes all gates, given the pairings made so far.
-struct TScored {
-    const TPair* pair;
-    double score;  //!< log LR + log density [nats]
-    double peak;   //!< The same for an innovation of zero: how sharply geometry predicts [nats].
-};
-
-/// What speaks for the best landmark of a measurement.
-struct TBest {
-    std::size_t observation{0};
-    TScored best{nullptr, noScore, noScore};
-    double lead{0};  //!< Over the strongest rival [nats].
-};
-
-/// Searches the pairings of one step.
-class CBestFirst {
+/// Decides the open measurements of one step.
+class CWeighing {
  public:
-    CBestFirst(const TAssociationOptions& options,
-               CGatedStep& step,
-               const std::vector<TMeasurement>& measurements)
-        : m_options(options),
-          m_step(step),
-          m_gate(chiSquareQuantile(options.gateQuantile, 2)),
-          m_measurements(measurements),
-          m_scores(measurements.size()) {}
+    CWeighing(const TAssociationOptions& options,
+              const TAssociationProblem& problem,
+              CGatedStep& step);
 
-    void run();
+    TAssociation run();
 
  private:
-    void score();
-    /// Best score of a measurement with any landmark but `landmark`; noScore for none.
-    double secondBest(std::size_t observation, std::size_t landmark) const;
-    TBest best(std::size_t observation) const;
-    /// Why the best landmark of a measurement must not be paired; nothing if it may.
-    std::optional<EReason> objection(const TBest& candidate) const;
-    /// Score of the explanation that a measurement shows a landmark which is not in the map.
-    double otherScore(std::size_t observation) const {
-        return m_measurements[observation].kind == ELandmarkKind::corner
-                   ? m_options.cornerLogDensity
-                   : m_options.salientLogDensity;
-    }
+    void findBest();
+    void findDoubts();
+    /// By row, the branch that a hypothesis pairs it with.
+    std::vector<std::size_t> assignment(const TScoredHypothesis& hypothesis) const;
+    void dropOutliers();
+    void pairTheSharp();
+    void settleTheRest();
 
     const TAssociationOptions& m_options;
+    const TAssociationProblem& m_problem;
     CGatedStep& m_step;
-    double m_gate;
-    const std::vector<TMeasurement>& m_measurements;
-    std::vector<std::vector<TScored>> m_scores;
+    CInterpretationTree m_tree;
+    CHypothesisScore m_score;
+    CChiSquareGate m_gate;
+    CScoredSearch m_search;
+    std::vector<std::size_t> m_rowOf;  //!< By branch.
+    TScoredHypothesis m_best;
+    std::vector<std::size_t> m_assignment;         //!< Of the best hypothesis.
+    std::vector<std::optional<EReason>> m_doubts;  //!< By row, why not to pair it.
+    bool m_complete{true};
 };
 
-void CBestFirst::score() {
-    for (std::size_t i = 0; i < m_scores.size(); ++i) {
-        m_scores[i].clear();
-        if (!m_step.isOpen(i)) continue;
-        for (const TPair& pair : m_step.pairs(i)) {
-            if (!pair.inGate || pair.forbidden || m_step.isTaken(pair.landmark)) continue;
-            const auto test = m_step.joint().test(i, pair.landmark);
-            if (!test || !(test->distance2 <= m_gate) || !m_step.passesJointGate(*test)) continue;
-            const double logRatio = std::isnan(pair.logRatio) ? 0 : pair.logRatio;
-            const double score = test->logDensity + logRatio;
-            m_scores[i].push_back({&pair, score, score + 0.5 * test->distance2});
-        }
+CWeighing::CWeighing(const TAssociationOptions& options,
+                     const TAssociationProblem& problem,
+                     CGatedStep& step)
+    : m_options(options),
+      m_problem(problem),
+      m_step(step),
+      m_tree(problem, step.branches(true), step.identityPairings()),
+      m_score(options, problem, step, step.branches(true)),
+      m_gate(options.jointQuantile, step.openCount()),
+      m_search(m_tree, m_score, m_gate, options.newDistance2) {
+    std::vector<TExplainable> rows;
+    for (std::size_t k = 0; k < m_tree.size(); ++k) {
+        if (rows.empty() || rows.back().observation != m_tree[k].observation)
+            rows.push_back({m_tree[k].observation, {}, {}});
+        rows.back().near.push_back(k);
+        if (m_step.pairOf(m_tree[k]).inGate) rows.back().pairable.push_back(k);
+        m_rowOf.push_back(rows.size() - 1);
     }
+    for (TExplainable& row : rows) m_search.add(std::move(row));
+    m_doubts.resize(rows.size());
 }
 
-double CBestFirst::secondBest(std::size_t observation, std::size_t landmark) const {
-    double found = noScore;
-    for (const TScored& scored : m_scores[observation])
-        if (scored.pair->landmark != landmark) found = std::max(found, scored.score);
-    return found;
-}
-
-TBest CBestFirst::best(std::size_t observation) const {
-    TBest result;
-    result.observation = observation;
-    for (const TScored& scored : m_scores[observation])
-        if (scored.score > result.best.score) result.best = scored;
-    if (result.best.pair == nullptr) return result;
-    const std::size_t landmark = result.best.pair->landmark;
-    const double second = secondBest(observation, landmark);
-    result.lead = result.best.score - second;
-    // A rival measurement takes the landmark away; each of the two then has its next explanation.
-    const double gain = result.best.score - std::max(second, otherScore(observation));
-    for (std::size_t k = 0; k < m_scores.size(); ++k)
-        for (const TScored& rival : m_scores[k]) {
-            if (k == observation || rival.pair->landmark != landmark) continue;
-            const double loss = std::max(secondBest(k, landmark), otherScore(k));
-            result.lead = std::min(result.lead, gain + loss - rival.score);
-        }
+std::vector<std::size_t> CWeighing::assignment(const TScoredHypothesis& hypothesis) const {
+    std::vector<std::size_t> result(m_doubts.size(), none);
+    for (const std::size_t branch : hypothesis.branches) result[m_rowOf[branch]] = branch;
     return result;
 }
 
-std::optional<EReason> CBestFirst::objection(const TBest& candidate) const {
-    if (candidate.best.pair->logRatio < m_options.acceptLogLr) return EReason::unsureAppearance;
-    // Judged by the peak: a limit on the score would be a hidden, narrower gate, and a filter that
-    // only hears of small innovations becomes too sure of itself.
-    if (!(candidate.best.peak >= otherScore(candidate.observation))) return EReason::improbable;
-    if (!(candidate.lead >= m_options.margin)) return EReason::ambiguous;
-    return {};
+void CWeighing::findBest() {
+    const auto limit = static_cast<std::size_t>(m_options.searchLimit);
+    m_best = m_search.find({}, limit);
+    m_complete = m_search.isComplete();
+    m_assignment = assignment(m_best);
 }
 
-void CBestFirst::run() {
-    while (true) {
-        score();
-        std::optional<TBest> chosen;
-        for (std::size_t i = 0; i < m_scores.size(); ++i) {
-            const TBest candidate = best(i);
-            if (candidate.best.pair == nullptr || objection(candidate)) continue;
-            if (!chosen || candidate.lead > chosen->lead ||
-                (candidate.lead == chosen->lead && candidate.best.score > chosen->best.score))
-                chosen = candidate;
+/* A measurement is in doubt if a hypothesis that explains it otherwise comes within the margin of
+ * the best one. */
+void CWeighing::findDoubts() {
+    const std::size_t lastTest = m_tree.tests() + static_cast<std::size_t>(m_options.searchLimit);
+    for (std::size_t row = 0; row < m_doubts.size(); ++row) {
+        if (m_doubts[row]) continue;
+        TSearchGoal goal;
+        goal.any = true;
+        goal.threshold = m_best.score - m_options.margin;
+        if (m_assignment[row] != none)
+            goal.withoutBranch = m_assignment[row];
+        else if (!m_search.rows()[row].pairable.empty())
+            goal.pairedRow = row;
+        else
+            continue;
+        const TScoredHypothesis rival = m_search.find(goal, lastTest);
+        if (rival.exists()) {
+            const std::vector<std::size_t> other = assignment(rival);
+            for (std::size_t k = 0; k < other.size(); ++k)
+                if (other[k] != m_assignment[k]) m_doubts[k] = EReason::ambiguous;
+        } else if (!m_search.isComplete()) {
+            m_complete = false;
         }
-        if (!chosen) break;
-        m_step.pair(chosen->observation, chosen->best.pair->landmark, EReason::nearest);
     }
-    for (std::size_t i = 0; i < m_scores.size(); ++i) {
-        if (!m_step.isOpen(i)) continue;
-        const TBest candidate = best(i);
-        m_step.settle(i, candidate.best.pair ? *objection(candidate) : m_step.whyUnpaired(i), true);
+}
+
+/* What is in doubt supports nobody, so the rest is judged without it: pairings that do not agree
+ * with all others go, the worst first. */
+void CWeighing::dropOutliers() {
+    const std::vector<TBranch>& given = m_step.identityPairings();
+    const double givenDistance2 = leaveOneOut(m_problem, given).jointDistance2;
+    std::vector<std::size_t> kept;
+    for (std::size_t row = 0; row < m_doubts.size(); ++row) {
+        if (m_assignment[row] == none || m_doubts[row]) continue;
+        if (m_step.pairOf(m_tree[m_assignment[row]]).logRatio < m_options.acceptLogLr)
+            m_doubts[row] = EReason::unsureAppearance;
+        else
+            kept.push_back(row);
     }
+    while (!kept.empty()) {
+        std::vector<TBranch> pairings;
+        for (const std::size_t row : kept) pairings.push_back(m_tree[m_assignment[row]]);
+        pairings.insert(pairings.end(), given.begin(), given.end());
+        const TLeaveOneOut left = leaveOneOut(m_problem, pairings);
+        const auto last = left.distance2.begin() + static_cast<std::ptrdiff_t>(kept.size());
+        const auto worst = std::max_element(left.distance2.begin(), last);
+        if (*worst <= m_gate(1) && left.jointDistance2 - givenDistance2 <= m_gate(kept.size()))
+            return;
+        const auto position = kept.begin() + (worst - left.distance2.begin());
+        m_doubts[*position] = EReason::jointlyImpossible;
+        kept.erase(position);
+    }
+}
+
+/* Geometry must predict a landmark more sharply than landmarks that are not in the map are dense.
+ * What it knows grows with each pairing, so this goes on while one more is sharp enough. It is
+ * judged by the peak: a limit on the density itself would be a hidden, narrower gate, and a filter
+ * that only hears of small innovations becomes too sure of itself. */
+void CWeighing::pairTheSharp() {
+    for (bool found = true; found;) {
+        found = false;
+        for (std::size_t row = 0; row < m_doubts.size(); ++row) {
+            if (m_assignment[row] == none || m_doubts[row]) continue;
+            const TBranch& branch = m_tree[m_assignment[row]];
+            if (!m_step.isOpen(branch.observation)) continue;
+            const auto test = m_step.joint().test(branch.observation, branch.landmark);
+            const double logRatio = m_step.pairOf(branch).logRatio;
+            if (!test || !(test->logDensity + 0.5 * test->distance2 +
+                               (std::isnan(logRatio) ? 0 : logRatio) >=
+                           m_score.unexplained(branch.observation)))
+                continue;
+            m_step.pair(branch.observation, branch.landmark, EReason::nearest);
+            found = true;
+        }
+    }
+}
+
+void CWeighing::settleTheRest() {
+    std::vector<std::optional<EReason>> reasons(m_problem.measurements.size());
+    for (std::size_t row = 0; row < m_doubts.size(); ++row) {
+        const std::size_t observation = m_search.rows()[row].observation;
+        if (!m_step.isOpen(observation)) continue;
+        if (m_assignment[row] != none)
+            reasons[observation] = m_doubts[row].value_or(EReason::improbable);
+    }
+    for (std::size_t i = 0; i < reasons.size(); ++i)
+        if (m_step.isOpen(i))
+            m_step.settle(i, reasons[i] ? *reasons[i] : m_step.whyUnpaired(i), true);
+}
+
+TAssociation CWeighing::run() {
+    double score = 0;  // of what lies near no landmark
+    std::vector<bool> hasRow(m_problem.measurements.size(), false);
+    for (const TExplainable& row : m_search.rows()) hasRow[row.observation] = true;
+    for (std::size_t i = 0; i < hasRow.size(); ++i)
+        if (m_step.isOpen(i) && !hasRow[i])
+            score += std::max(m_score.unexplained(i), m_score.clutter(i));
+    findBest();
+    if (m_complete) findDoubts();
+    for (std::size_t row = 0; row < m_doubts.size(); ++row)
+        if (m_doubts[row]) m_step.defer(m_search.rows()[row].observation, *m_doubts[row]);
+    if (m_complete) {
+        dropOutliers();
+        pairTheSharp();
+        settleTheRest();
+    } else {
+        CBestFirst(m_options, m_step, m_problem.measurements).run();
+    }
+    TAssociation result = m_step.finish({m_tree.nodes(), m_tree.tests(), m_complete});
+    result.score = score + m_best.score;
+    return result;
 }
 
 }  // namespace
@@ -144,8 +205,7 @@ CSaliencyAssociation::CSaliencyAssociation(const TAssociationOptions& options)
 TAssociation CSaliencyAssociation::associate(const TAssociationProblem& problem) const {
     CGatedStep step(m_options, problem);
     step.weighAppearance();
-    CBestFirst(m_options, step, problem.measurements).run();
-    return step.finish();
+    return CWeighing(m_options, problem, step).run();
 }
 
 }  // namespace salma::association

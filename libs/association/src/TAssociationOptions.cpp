@@ -25,13 +25,20 @@ void TAssociationOptions::visit(config::COptionVisitor& v) {
     v.number("forbid_log_lr", forbidLogLr, config::anyNumber(),
              "log likelihood ratio up to which appearance excludes a candidate (saliency)");
     v.number("margin", margin, config::atLeast(0),
-             "least lead in nats over the second-best explanation (saliency)");
+             "least lead in nats over the second-best hypothesis (saliency)");
     v.number("corner_log_density", cornerLogDensity, config::anyNumber(),
              "log density of corners not in the map, per metre and radian (saliency)");
     v.number("salient_log_density", salientLogDensity, config::anyNumber(),
              "the same for salient landmarks (saliency)");
-    v.integer("search_limit", searchLimit, config::atLeast(1),
-              "tests of joint compatibility in a step before random starts take over (jcbb)");
+    v.number("corner_clutter_log_density", cornerClutterLogDensity, config::anyNumber(),
+             "log density of corners that stand for nothing (saliency)");
+    v.number("salient_clutter_log_density", salientClutterLogDensity, config::anyNumber(),
+             "the same for salient landmarks (saliency)");
+    v.number("detection_probability", detectionProbability, config::insideOf(0, 1),
+             "probability that a landmark in view is measured, 0.5 for no matter (saliency)");
+    v.integer(
+        "search_limit", searchLimit, config::atLeast(1),
+        "pairings judged before random starts (jcbb) or the surest first (saliency) take over");
     v.integer("seed", seed, config::atLeast(0), "of the random starts (jcbb)");
     v.integer("max_measurements", maxMeasurements, config::atLeast(1),
               "measurements of a step that are looked at, the nearest ones");

@@ -28,6 +28,12 @@ void check(const TStepInput& step) {
                                     " measurements");
 }
 
+/// Probability that a normally distributed value is below a limit.
+double probabilityBelow(double limit, double mean, double sigma) {
+    if (!(sigma > 0)) return mean <= limit ? 1 : 0;
+    return 0.5 * std::erfc((mean - limit) / (sigma * M_SQRT2));
+}
+
 }  // namespace
 
 CSalientEKF2D::CSalientEKF2D(const TEkfOptions& ekf,
@@ -110,6 +116,7 @@ TAssociationProblem CSalientEKF2D::problem() const {
     result.measurements = m_now.input.measurements;
     result.predictionCovariance = predictionCovariance(mean, covariance);
     const double halfView = m_ekf.fieldOfView / 2;
+    std::vector<double> visibilities;
     for (std::size_t k = 0; k < m_landmarks.size(); ++k) {
         association::TPredictedLandmark expected = m_landmarks.expected(k, heading());
         const auto row = static_cast<Eigen::Index>(2 * k);
@@ -119,8 +126,13 @@ TAssociationProblem CSalientEKF2D::problem() const {
             3 * result.predictionCovariance.diagonal().segment<2>(row).cwiseSqrt();
         expected.visible = expected.z[0] <= m_ekf.maxRange + slack[0] &&
                            std::abs(expected.z[1]) <= halfView + slack[1];
+        visibilities.push_back(
+            probabilityBelow(m_ekf.maxRange, expected.z[0], slack[0] / 3) *
+            (halfView < M_PI ? probabilityBelow(halfView, std::abs(expected.z[1]), slack[1] / 3)
+                             : 1));
         result.landmarks.push_back(expected);
     }
+    result.visibility = [visibilities](std::size_t landmark) { return visibilities[landmark]; };
     if (m_ratio)
         result.logRatio = [this](std::size_t observation, std::size_t landmark) {
             const auto& seen = m_now.input.measurements[observation].patch;

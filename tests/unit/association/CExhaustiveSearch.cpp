@@ -36,19 +36,19 @@ TExhaustiveResult CExhaustiveSearch::mostPairings() {
     m_best.landmarks = m_now;
     for (const auto& candidates : m_candidates)
         m_best.individuallyCompatible += !candidates.empty();
-    visit(0);
+    visit(0, [this] { consider(); });
     return m_best;
 }
 
-void CExhaustiveSearch::visit(std::size_t observation) {
+void CExhaustiveSearch::visit(std::size_t observation, const std::function<void()>& consider) {
     if (observation == m_now.size()) return consider();
     for (const int landmark : m_candidates[observation]) {
         if (std::find(m_now.begin(), m_now.end(), landmark) != m_now.end()) continue;
         m_now[observation] = landmark;
-        visit(observation + 1);
+        visit(observation + 1, consider);
         m_now[observation] = -1;
     }
-    visit(observation + 1);
+    visit(observation + 1, consider);
 }
 
 void CExhaustiveSearch::consider() {
@@ -64,24 +64,124 @@ void CExhaustiveSearch::consider() {
 }
 
 double CExhaustiveSearch::distance2() const {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < m_now.size(); ++i) {
+        if (m_now[i] < 0) continue;
+        const Eigen::Vector2d own = innovationOf(
+            m_problem.measurements[i], m_problem.landmarks[static_cast<std::size_t>(m_now[i])]);
+        values.insert(values.end(), {own[0], own[1]});
+    }
+    const Eigen::Map<const Eigen::VectorXd> nu(values.data(),
+                                               static_cast<Eigen::Index>(values.size()));
+    return nu.dot(covariance().inverse() * nu);
+}
+
+double CExhaustiveSearch::logDeterminant() const {
+    return std::log((2 * M_PI * covariance()).determinant());
+}
+
+Eigen::MatrixXd CExhaustiveSearch::covariance() const {
     std::vector<std::size_t> paired;
     for (std::size_t i = 0; i < m_now.size(); ++i)
         if (m_now[i] >= 0) paired.push_back(i);
     const auto size = static_cast<Eigen::Index>(2 * paired.size());
     Eigen::MatrixXd S(size, size);
-    Eigen::VectorXd nu(size);
     for (std::size_t a = 0; a < paired.size(); ++a) {
-        const auto& measurement = m_problem.measurements[paired[a]];
-        const int first = m_now[paired[a]];
         const auto row = static_cast<Eigen::Index>(2 * a);
-        nu.segment<2>(row) =
-            innovationOf(measurement, m_problem.landmarks[static_cast<std::size_t>(first)]);
         for (std::size_t b = 0; b < paired.size(); ++b)
-            S.block<2, 2>(row, 2 * b) =
-                m_problem.predictionCovariance.block<2, 2>(2 * first, 2 * m_now[paired[b]]);
-        S.block<2, 2>(row, row) += measurement.R;
+            S.block<2, 2>(row, static_cast<Eigen::Index>(2 * b)) =
+                m_problem.predictionCovariance.block<2, 2>(2 * m_now[paired[a]],
+                                                           2 * m_now[paired[b]]);
+        S.block<2, 2>(row, row) += m_problem.measurements[paired[a]].R;
     }
-    return nu.dot(S.inverse() * nu);
+    return S;
+}
+
+void CExhaustiveSearch::dropForbidden(const TAssociationOptions& options) {
+    for (std::size_t i = 0; i < m_candidates.size(); ++i) {
+        auto& candidates = m_candidates[i];
+        candidates.clear();
+        for (std::size_t j = 0; j < m_problem.landmarks.size(); ++j) {
+            const auto& landmark = m_problem.landmarks[j];
+            if (landmark.kind != m_problem.measurements[i].kind) continue;
+            const int index = static_cast<int>(j);
+            const bool asked = m_problem.logRatio && landmark.kind == ELandmarkKind::salient;
+            m_ratios[{i, index}] = asked ? m_problem.logRatio(i, j) : std::nan("");
+            if (m_ratios[{i, index}] <= options.forbidLogLr) continue;
+            candidates.push_back(index);
+        }
+    }
+}
+
+bool CExhaustiveSearch::isNear(std::size_t observation, const TAssociationOptions& options) {
+    const std::vector<int> hypothesis = m_now;
+    const double before = distance2();
+    bool near = false;
+    for (const int landmark : m_candidates[observation]) {
+        std::fill(m_now.begin(), m_now.end(), -1);
+        m_now[observation] = landmark;
+        const bool alone = distance2() <= options.newDistance2;
+        m_now = hypothesis;
+        m_now[observation] = landmark;
+        near = near || (alone && distance2() - before <= options.newDistance2);
+        m_now = hypothesis;
+    }
+    return near;
+}
+
+double CExhaustiveSearch::score(const TAssociationOptions& options) {
+    double score = -0.5 * (distance2() + logDeterminant());
+    if (std::count(m_now.begin(), m_now.end(), -1) == static_cast<int>(m_now.size())) score = 0;
+    for (std::size_t i = 0; i < m_now.size(); ++i) {
+        const bool corner = m_problem.measurements[i].kind == ELandmarkKind::corner;
+        if (m_now[i] >= 0) {
+            const double seen = options.detectionProbability *
+                                m_problem.visibility(static_cast<std::size_t>(m_now[i]));
+            const double ratio = m_ratios[{i, m_now[i]}];
+            score += std::log(seen / (1 - seen)) + (std::isnan(ratio) ? 0 : ratio);
+            continue;
+        }
+        const double clutter =
+            corner ? options.cornerClutterLogDensity : options.salientClutterLogDensity;
+        const double unexplained = corner ? options.cornerLogDensity : options.salientLogDensity;
+        score += isNear(i, options) ? clutter : std::max(clutter, unexplained);
+    }
+    return score;
+}
+
+TScoredResult CExhaustiveSearch::bestScored(const TAssociationOptions& options) {
+    dropForbidden(options);
+    const auto everything = m_candidates;  // what a new landmark must be clear of
+    std::vector<std::pair<double, std::vector<int>>> all;
+    std::fill(m_now.begin(), m_now.end(), -1);
+    const auto isInGate = [this](std::size_t i, int landmark) {
+        m_now[i] = landmark;
+        const bool inGate = distance2() <= limits[1];
+        m_now[i] = -1;
+        return inGate;
+    };
+    for (std::size_t i = 0; i < m_candidates.size(); ++i) {
+        auto& list = m_candidates[i];
+        list.erase(std::remove_if(list.begin(), list.end(),
+                                  [&](int landmark) { return !isInGate(i, landmark); }),
+                   list.end());
+    }
+    const auto pairable = m_candidates;
+    visit(0, [&] {
+        const auto pairings =
+            m_now.size() - static_cast<std::size_t>(std::count(m_now.begin(), m_now.end(), -1));
+        if (pairings > 0 && !(distance2() <= limits[pairings])) return;
+        m_candidates = everything;
+        all.emplace_back(score(options), m_now);
+        m_candidates = pairable;
+    });
+    const auto best = std::max_element(all.begin(), all.end());
+    TScoredResult result{best->second, best->first, std::vector<bool>(m_now.size(), false)};
+    for (const auto& [score, landmarks] : all)
+        if (score > best->first - options.margin)
+            for (std::size_t i = 0; i < m_now.size(); ++i)
+                if (landmarks[i] != best->second[i]) result.ambiguous[i] = true;
+    return result;
 }
 
 }  // namespace salma::association::test

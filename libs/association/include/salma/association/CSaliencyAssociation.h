@@ -7,18 +7,24 @@ namespace salma::association {
 
 /** Weighs geometry and appearance together and defers what stays ambiguous.
  *
- * The score of a pair is log LR + log N(innovation | pairings before it); landmarks without
- * appearance have LR = 1. The pair with the largest lead over its rivals is made first, and what it
- * tells about the robot's pose sharpens the scores of the others. A rival is another landmark for
- * the measurement, or another measurement for the landmark. A pair is made only if
- *  - it passes the individual and the joint gate, given the pairings before it,
+ * Of all hypotheses inside the individual and the joint gate it looks for the one with the largest
+ *
+ *   L = sum over pairings [ log P_D + log LR + log N(innovation | pairings before it) ]
+ *     + sum over unpaired landmarks  log(1 - P_D)
+ *     + sum over unpaired measurements  log lambda_new, or log lambda_clutter where a landmark is
+ *       so near, given the pairings, that a new one cannot stand there,
+ *
+ * by branch and bound. LR is 1 for landmarks without appearance, P_D is `detectionProbability`
+ * times the visibility. A measurement is decided as the best hypothesis has it only if no other one
+ * within `margin` explains it otherwise. What is left is paired if
  *  - its log LR reaches `acceptLogLr`, or appearance cannot tell,
- *  - it leads by `margin` over every rival,
- *  - geometry predicts it sharply enough: log LR + log N(0) reaches the density of landmarks that
- *    are not in the map, `cornerLogDensity` or `salientLogDensity`. So a robot that is unsure where
- *    it is finds itself by posters first, and by corners when these have told it.
- * Landmarks with log LR <= `forbidLogLr` are no candidates and do not stop a new landmark.
- * Source: own. */
+ *  - it passes both gates given the other pairings that are left, the worst going first,
+ *  - geometry predicts it sharply enough: log LR + log N(0) given the pairings made reaches the
+ *    density of landmarks that are not in the map. So a robot that is unsure where it is finds
+ *    itself by posters first, and by corners when these have told it.
+ * Landmarks with log LR <= `forbidLogLr` are no candidates and do not stop a new landmark. Where
+ * the search does not end within `searchLimit` tests, pairings are made one by one, the surest
+ * first, each against its direct rivals only. Source: own. */
 class CSaliencyAssociation : public CDataAssociator {
  public:
     /// \throw std::invalid_argument

@@ -72,6 +72,9 @@ struct TAssociation {
     std::size_t pairings{0};
     double jointDistance2{0};  //!< Of all pairings together; 2 degrees of freedom each.
     double logRatio{0};        //!< Sum over the pairings whose appearance was compared.
+    /// Log score of the best hypothesis less log(1 - P_D) of all landmarks, a constant [nats];
+    /// NaN for methods that have none.
+    double score{std::numeric_limits<double>::quiet_NaN()};
     TSearchCounts search;
     TDropCounts dropped;
 };

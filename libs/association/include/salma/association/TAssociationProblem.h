@@ -34,6 +34,9 @@ struct TAssociationProblem {
     /// at most once per pair, only for pairs of salient landmarks that geometry allows; NaN means
     /// "cannot tell". Null: appearance is not used.
     std::function<double(std::size_t observation, std::size_t landmark)> logRatio;
+    /// Probability from 0 to 1 that a landmark is inside the view of this step's sensors and not
+    /// hidden. Null: 1 for all.
+    std::function<double(std::size_t landmark)> visibility;
 };
 
 }  // namespace salma::association

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "CGatedStep.h"
+
+namespace salma::association {
+
+/** The terms of a hypothesis' score, and what they can become at best.
+ *
+ *   L = sum over pairings [ log P_D + log LR + log N(innovation | the other pairings before it) ]
+ *     + sum over landmarks in view without measurement  log(1 - P_D)
+ *     + sum over measurements without landmark  log lambda_new or log lambda_clutter.
+ *
+ * Unpaired landmarks count log(1 - P_D) in every hypothesis, so the score is kept relative to the
+ * hypothesis without any pairing: a pairing gains log P_D - log(1 - P_D).
+ *
+ * However many pairings a hypothesis has, it does not know a landmark better than from all other
+ * landmarks that could be paired, each seen with the smallest noise of its measurements. What this
+ * leaves is a floor for covariances and so a bound for densities, sharper than R alone. */
+class CHypothesisScore {
+ public:
+    /// \param branches Pairs of open measurements, sorted; all must be pairs of `step`.
+    CHypothesisScore(const TAssociationOptions& options,
+                     const TAssociationProblem& problem,
+                     const CGatedStep& step,
+                     const std::vector<TBranch>& branches);
+
+    /// What appearance and detection add to a branch's log density.
+    double gain(std::size_t branch) const { return m_terms[branch].gain; }
+    /// Largest gain + log density in any hypothesis.
+    double bound(std::size_t branch) const { return m_terms[branch].bound; }
+    /// Smallest covariance of the innovation in any hypothesis that does not contain the branch.
+    /// \param landmarkToo The hypothesis may pair the landmark with another measurement.
+    const Eigen::Matrix2d& floor(std::size_t branch, bool landmarkToo) const {
+        return landmarkToo ? m_terms[branch].lowest : m_terms[branch].floor;
+    }
+
+    /// Log density of a measurement that shows a landmark which is not in the map, or nothing.
+    double unexplained(std::size_t observation) const;
+    double clutter(std::size_t observation) const;
+
+ private:
+    struct TTerms {
+        double gain{0};
+        double bound{0};
+        Eigen::Matrix2d floor{Eigen::Matrix2d::Zero()};
+        Eigen::Matrix2d lowest{Eigen::Matrix2d::Zero()};
+    };
+    double gainOf(const TBranch& branch, const TPair& pair) const;
+    void setBounds(const std::vector<TBranch>& branches, const std::vector<TBranch>& given);
+
+    const TAssociationOptions& m_options;
+    const TAssociationProblem& m_problem;
+    std::vector<TTerms> m_terms;
+};
+
+}  // namespace salma::association

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "CInterpretationTree.h"
+
+namespace salma::association {
+
+struct TLeaveOneOut {
+    std::vector<double> distance2;  //!< Of each pairing, given all others.
+    double jointDistance2{0};
+};
+
+/// Infinite where the joint covariance is not sound.
+TLeaveOneOut leaveOneOut(const TAssociationProblem& problem, const std::vector<TBranch>& pairings);
+
+}  // namespace salma::association
