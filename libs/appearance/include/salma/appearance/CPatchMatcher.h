@@ -40,8 +40,8 @@ struct TMatcherOptions : public config::TStrictOptions<TMatcherOptions> {
     double regionsOppositeView{0.4};  //!< ... and seen from directions 130 deg apart.
     double duplicateRate{0.02};       //!< Share of other entities that look the same.
     /// Scores, ascending from 0 to 1, and log p(score|same)/p(score|other) at each.
-    std::vector<double> scoreKnots{0, 0.1, 0.15, 0.25, 0.35, 0.45, 1};
-    std::vector<double> logLrKnots{-3, -2.5, -1, 1.2, 3, 5.2, 5.2};
+    std::vector<double> scoreKnots{0, 0.1, 0.2, 0.25, 0.35, 0.45, 1};
+    std::vector<double> logLrKnots{-3, -2.5, -2, -1.5, 1, 5.2, 5.2};
     /// The same for patches without regions.
     std::vector<double> keypointScoreKnots{0, 0.1, 0.2, 0.3, 1};
     std::vector<double> keypointLogLrKnots{-3, 0, 1.4, 5.2, 5.2};
