@@ -35,16 +35,28 @@ TEllipse ellipseOfPixels(const std::vector<cv::Point>& pixels) {
     return ellipseOfMoments(u, v, moments);
 }
 
-TStableRegion describe(const cv::Mat& grey, std::vector<cv::Point> pixels, EPolarity polarity) {
+/// The same pixels by row, then column: painted into their box and read back, which takes a fraction
+/// of the time of sorting them.
+std::vector<cv::Point> inOrder(const std::vector<cv::Point>& pixels, const cv::Rect& box) {
+    cv::Mat inside(box.size(), CV_8UC1, cv::Scalar(0));
+    for (const auto& p : pixels) inside.at<std::uint8_t>(p - box.tl()) = 1;
+    std::vector<cv::Point> ordered;
+    cv::findNonZero(inside, ordered);
+    for (auto& p : ordered) p += box.tl();
+    return ordered;
+}
+
+TStableRegion describe(const cv::Mat& grey,
+                       const std::vector<cv::Point>& pixels,
+                       EPolarity polarity) {
     TStableRegion region;
-    std::sort(pixels.begin(), pixels.end(), before);
     region.box = cv::boundingRect(pixels);
-    region.ellipse = ellipseOfPixels(pixels);
+    region.pixels = inOrder(pixels, region.box);
+    region.ellipse = ellipseOfPixels(region.pixels);
     double sum = 0;
-    for (const auto& p : pixels) sum += grey.at<std::uint8_t>(p);
-    region.meanGrey = sum / static_cast<double>(pixels.size());
+    for (const auto& p : region.pixels) sum += grey.at<std::uint8_t>(p);
+    region.meanGrey = sum / static_cast<double>(region.pixels.size());
     region.polarity = polarity;
-    region.pixels = std::move(pixels);
     return region;
 }
 
@@ -83,7 +95,7 @@ std::vector<TStableRegion> CStableRegions::detect(const cv::Mat& grey) const {
         std::vector<cv::Rect> boxes;
         mser->detectRegions(polarity == EPolarity::darkOnBright ? negative : grey, pixels, boxes);
         const auto first = static_cast<std::ptrdiff_t>(regions.size());
-        for (auto& p : pixels) regions.push_back(describe(grey, std::move(p), polarity));
+        for (const auto& p : pixels) regions.push_back(describe(grey, p, polarity));
         std::sort(regions.begin() + first, regions.end(), [](const auto& a, const auto& b) {
             return a.pixels[0] != b.pixels[0] ? before(a.pixels[0], b.pixels[0])
                                               : a.pixels.size() < b.pixels.size();

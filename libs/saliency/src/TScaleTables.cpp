@@ -73,7 +73,7 @@ void TScaleTables::scaleBounds() {
     };
     double largest = 0;
     for (int k = 1; k < scales(); ++k) largest = std::max(largest, perWhole(k));
-    constexpr double kTop = 65000;  // toD of the largest; leaves room for whole < kWhole
+    constexpr double kTop = 62000;  // toD of the largest; whole may be 4 % less than kWhole
     bound.resize(static_cast<std::size_t>(scales()));
     for (int k = 0; k < scales(); ++k) {
         auto& b = bound[static_cast<std::size_t>(k)];

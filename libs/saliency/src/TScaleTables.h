@@ -73,7 +73,7 @@ struct TScaleTables {
     /// Pixels of the ring at scale k, counted from sMin.
     int inRing(int k) const;
 
-    /// Whether the number of a ring's pixels fits into a byte: true up to 40 if sMin <= 9.
+    /// Whether the number of a ring's pixels fits into a byte: true up to radius 38 if sMin <= 9.
     bool fitsBytes() const;
 
  private:
