@@ -25,6 +25,7 @@ using observations::CObservationSalientLandmarks;
 
 void insertPatch(SQLite::Database& db, int id, const observations::TPatch& patch) {
     CObservationSalientLandmarks record;
+    record.timestamp = mrpt::Clock::time_point();  // not the time of writing
     record.landmarks = {patch};
     std::vector<std::uint8_t> bytes;
     mrpt::serialization::ObjectToOctetVector(&record, bytes);

@@ -50,6 +50,13 @@ TEST(CLandmarkDatabase, ReadsBackWhatItWrote) {
     EXPECT_EQ(read[1].patch->picture.getWidth(), 8u);
 }
 
+TEST(CLandmarkDatabase, WritesTheSameBytesAgain) {
+    const test::CTemporaryFolder folder;
+    for (const auto* name : {"a.db", "b.db"})
+        CLandmarkDatabase((folder / name).string()).create(twoLandmarks());
+    EXPECT_TRUE(test::readFile(folder / "a.db") == test::readFile(folder / "b.db"));
+}
+
 TEST(CLandmarkDatabase, RefusesToOverwriteAndToReadWhatIsNone) {
     const test::CTemporaryFolder folder;
     const auto text = folder.write("map.db", "not a database, but long enough to look like a file");
