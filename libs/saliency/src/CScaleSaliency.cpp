@@ -24,21 +24,6 @@ using TRegions = std::vector<observations::TSalientRegion>;
 
 namespace {
 
-/// A tile's centres and their peaks.
-struct TJob {
-    cv::Rect centres;
-    TTilePeaks found;
-};
-
-/// The tiles of a picture, row by row of tiles.
-std::vector<TJob> cut(const cv::Rect& centres) {
-    std::vector<TJob> jobs;
-    for (int y = centres.y; y < centres.br().y; y += kTileRows)
-        for (int x = centres.x; x < centres.br().x; x += kLanes)
-            jobs.push_back({cv::Rect(x, y, kLanes, kTileRows) & centres, {}});
-    return jobs;
-}
-
 /// The threshold, which rises as soon as as many peaks as are wanted are known to pass it.
 class CThreshold {
  public:
@@ -65,27 +50,82 @@ class CThreshold {
     std::priority_queue<double, std::vector<double>, std::greater<>> m_largest;
 };
 
-/// The peaks of all tiles by row, column, scale.
-TRegions join(const std::vector<TJob>& jobs) {
-    std::size_t count = 0;
-    for (const auto& job : jobs) count += job.found.peaks.size();
-    TRegions all;
-    all.reserve(count);
-    for (std::size_t first = 0, last = 0; first < jobs.size(); first = last) {
-        const cv::Rect& tile = jobs[first].centres;
-        while (last < jobs.size() && jobs[last].centres.y == tile.y) ++last;
+/** The tiles of a picture, handed out to threads, and the peaks that come back. Whoever completes
+ * a row of tiles puts its peaks in order while others go on. */
+class CTiles {
+ public:
+    struct TTile {
+        cv::Rect centres;
+        std::size_t row{0};  //!< Of tiles.
+        TTilePeaks found;
+    };
+
+    explicit CTiles(const cv::Rect& centres) {
+        for (int y = centres.y; y < centres.br().y; y += kTileRows) {
+            for (int x = centres.x; x < centres.br().x; x += kLanes)
+                m_tiles.push_back({cv::Rect(x, y, kLanes, kTileRows) & centres, m_ends.size(), {}});
+            m_ends.push_back(m_tiles.size());
+        }
+        m_left = std::vector<std::atomic<std::size_t>>(m_ends.size());
+        for (std::size_t row = 0; row < m_left.size(); ++row)
+            m_left[row] = m_ends[row] - firstOf(row);
+    }
+
+    std::size_t size() const { return m_tiles.size(); }
+
+    /// A tile that nobody has had yet, or null.
+    TTile* next() {
+        const std::size_t i = m_taken++;
+        return i < m_tiles.size() ? &m_tiles[i] : nullptr;
+    }
+
+    /// The peaks of a tile are found.
+    void complete(const TTile& tile) {
+        if (--m_left[tile.row] > 0) return;
+        const std::unique_lock<std::mutex> lock(m_joining, std::try_to_lock);
+        if (lock.owns_lock()) joinComplete();  // else who joins now, or takeAll, will find it
+    }
+
+    /// By row, column, scale; once all tiles are complete and no thread is left.
+    TRegions takeAll() {
+        joinComplete();
+        return std::move(m_all);
+    }
+
+ private:
+    std::size_t firstOf(std::size_t row) const { return row == 0 ? 0 : m_ends[row - 1]; }
+
+    void joinComplete() {
+        for (; m_joined < m_left.size() && m_left[m_joined] == 0; ++m_joined) join(m_joined);
+    }
+
+    void join(std::size_t row) {
+        std::size_t count = m_all.size();
+        for (std::size_t i = firstOf(row); i < m_ends[row]; ++i)
+            count += m_tiles[i].found.peaks.size();
+        if (count > m_all.capacity())  // as if the rows to come had as many
+            m_all.reserve(count + count / (row + 1) * (m_left.size() - row - 1) * 11 / 10);
+        const cv::Rect tile = m_tiles[firstOf(row)].centres;
         for (std::size_t r = 0; r < static_cast<std::size_t>(tile.height); ++r)
-            for (std::size_t i = first; i < last; ++i) {
-                const auto& found = jobs[i].found;
+            for (std::size_t i = firstOf(row); i < m_ends[row]; ++i) {
+                const auto& found = m_tiles[i].found;
                 for (std::size_t p = r == 0 ? 0 : found.ends[r - 1]; p < found.ends[r]; ++p) {
                     const TPeak& peak = found.peaks[p];
-                    all.push_back({double(peak.column), double(tile.y) + double(r),
-                                   double(peak.scale), peak.H, peak.W, peak.H * peak.W});
+                    m_all.push_back({double(peak.column), double(tile.y) + double(r),
+                                     double(peak.scale), peak.H, peak.W, peak.H * peak.W});
                 }
             }
+        for (std::size_t i = firstOf(row); i < m_ends[row]; ++i) m_tiles[i].found = {};
     }
-    return all;
-}
+
+    std::vector<TTile> m_tiles;
+    std::vector<std::size_t> m_ends;               //!< Of each row of tiles, in m_tiles.
+    std::vector<std::atomic<std::size_t>> m_left;  //!< Tiles of a row that are not complete.
+    std::atomic<std::size_t> m_taken{0};
+    std::mutex m_joining;
+    std::size_t m_joined{0};  //!< Rows that are in m_all.
+    TRegions m_all;
+};
 
 /// Leaves the `best` of largest Y, of equal ones the first, in their order.
 void keepBest(std::size_t best, TRegions& regions) {
@@ -106,13 +146,14 @@ void keepBest(std::size_t best, TRegions& regions) {
 template <class COUNT>
 void work(const TScaleTables& tables,
           const cv::Mat& bins,
-          const std::function<TJob*()>& next,
           ESimd simd,
-          CThreshold& threshold) {
-    CSaliencyTile<COUNT> tile(tables, simd);
-    for (TJob* job = next(); job != nullptr; job = next()) {
-        job->found = tile.detect(bins, job->centres, threshold.yMin());
-        threshold.add(job->found.peaks);
+          CThreshold& threshold,
+          CTiles& tiles) {
+    CSaliencyTile<COUNT> detector(tables, simd);
+    for (auto* tile = tiles.next(); tile != nullptr; tile = tiles.next()) {
+        tile->found = detector.detect(bins, tile->centres, threshold.yMin());
+        threshold.add(tile->found.peaks);
+        tiles.complete(*tile);
     }
 }
 
@@ -184,23 +225,18 @@ TRegions CScaleSaliency::detect(const cv::Mat& picture, const TPeakLimits& limit
     cv::LUT(grey, binTable(grey, m_options), bins);
     cv::Rect centres(reach, reach, grey.cols - 2 * reach, grey.rows - 2 * reach);
     if (!limits.centres.empty()) centres &= limits.centres;
-    auto jobs = cut(centres);
+    CTiles tiles(centres);
     CThreshold threshold(limits);
-    std::atomic<std::size_t> taken{0};
-    const std::function<TJob*()> next = [&jobs, &taken] {
-        const std::size_t i = taken++;
-        return i < jobs.size() ? &jobs[i] : nullptr;
-    };
     const auto worker = [&] {
         const auto run = m_tables->fitsBytes() ? work<std::uint8_t> : work<std::uint16_t>;
-        run(*m_tables, bins, next, m_options.simd, threshold);
+        run(*m_tables, bins, m_options.simd, threshold, tiles);
     };
     std::vector<std::future<void>> others;
-    for (int i = 1; i < m_options.threads && static_cast<std::size_t>(i) < jobs.size(); ++i)
+    for (int i = 1; i < m_options.threads && static_cast<std::size_t>(i) < tiles.size(); ++i)
         others.push_back(std::async(std::launch::async, worker));
     worker();
     for (auto& other : others) other.get();
-    auto regions = join(jobs);
+    auto regions = tiles.takeAll();
     keepBest(limits.best, regions);
     return regions;
 }
