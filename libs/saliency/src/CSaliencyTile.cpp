@@ -229,22 +229,13 @@ std::size_t CSaliencyTile<COUNT>::findCandidates(int count) {
 
 template <class COUNT>
 bool CSaliencyTile<COUNT>::isPeak(int k, int x) const {
-    const double h = entropy(k, x);
-    return h - entropy(k - 1, x) > kTie && h - entropy(k + 1, x) > kTie;
+    const std::array<TCandidate, kTogether> around{{{x, k - 1}, {x, k}, {x, k + 1}, {x, k}}};
+    std::array<double, kTogether> h{};
+    computeEntropies(around.data(), h.data());
+    return h[1] - h[0] > kTie && h[1] - h[2] > kTie;
 }
 
 /// H = (N log N - sum n log n) / N, the sum taken over ascending bins: the canonical arithmetic.
-template <class COUNT>
-double CSaliencyTile<COUNT>::entropy(int k, int x) const {
-    const int area = m_tables.area[static_cast<std::size_t>(m_tables.sMin + k)];
-    const double* const nLogN = m_tables.nLogN.data();
-    const std::uint16_t* count = m_part.countsOf(k) + x;
-    double sum = 0;
-    for (int b = 0; b < m_part.present; ++b, count += kPart) sum += nLogN[*count];
-    return (nLogN[area] - sum) / area;
-}
-
-/// Each is the sum of entropy(), in the same order.
 template <class COUNT>
 void CSaliencyTile<COUNT>::computeEntropies(const TCandidate* candidates, double* h) const {
     const double* const nLogN = m_tables.nLogN.data();

@@ -60,8 +60,7 @@ class CSaliencyTile {
     /// Peaks of entropy of a part, into m_candidates. \return How many.
     std::size_t findCandidates(int count);
     bool isPeak(int k, int x) const;
-    double entropy(int k, int x) const;
-    /// H of several candidates at once: one would wait for its own additions.
+    /// H of kTogether candidates at once: one alone would wait for its own additions.
     void computeEntropies(const TCandidate* candidates, double* h) const;
 
     static constexpr std::size_t kTogether = 4;

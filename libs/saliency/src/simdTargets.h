@@ -19,12 +19,13 @@ namespace salma::saliency {
 /// \throw std::invalid_argument if this processor, or this build, has not got `simd`.
 ESimd availableSimd(ESimd simd);
 
-/// The function made for an instruction set, which must be available.
+/// The function made for an instruction set. \throw std::invalid_argument as availableSimd.
 template <class FUNCTION>
 FUNCTION madeFor(ESimd simd, std::initializer_list<std::pair<ESimd, FUNCTION>> functions) {
+    const ESimd available = availableSimd(simd);
     FUNCTION made = nullptr;
     for (const auto& [target, function] : functions)
-        if (target == availableSimd(simd)) made = function;
+        if (target == available) made = function;
     return made;
 }
 
