@@ -35,8 +35,8 @@ TEllipse ellipseOfPixels(const std::vector<cv::Point>& pixels) {
     return ellipseOfMoments(u, v, moments);
 }
 
-/// The same pixels by row, then column: painted into their box and read back, which takes a fraction
-/// of the time of sorting them.
+/// The same pixels by row, then column: painted into their box and read back, which takes a
+/// fraction of the time of sorting them.
 std::vector<cv::Point> inOrder(const std::vector<cv::Point>& pixels, const cv::Rect& box) {
     cv::Mat inside(box.size(), CV_8UC1, cv::Scalar(0));
     for (const auto& p : pixels) inside.at<std::uint8_t>(p - box.tl()) = 1;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <salma/viz/CGnuplot.h>
-
 #include <fcntl.h>
+#include <salma/viz/CGnuplot.h>
 #include <spawn.h>
 #include <sys/mman.h>
 #include <sys/wait.h>

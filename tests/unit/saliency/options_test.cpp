@@ -43,8 +43,9 @@ TEST(SaliencyOptions, ReadEveryKeyOfDetection) {
 }
 
 TEST(SaliencyOptions, RefuseValuesBeyondTheirRanges) {
-    for (const std::string wrong : {"scale_min_px = 0", "scale_max_px = 129", "bins = 1",
-                                    "bins = 257", "log_base = 10", "threads = 0", "simd = mmx", "scales = 3"})
+    for (const std::string wrong :
+         {"scale_min_px = 0", "scale_max_px = 129", "bins = 1", "bins = 257", "log_base = 10",
+          "threads = 0", "simd = mmx", "scales = 3"})
         EXPECT_THROW(load<TScaleSaliencyOptions>(wrong), std::invalid_argument) << wrong;
     EXPECT_THROW(load<TScaleSaliencyOptions>("scale_min_px = 10\nscale_max_px = 11"),
                  std::invalid_argument);

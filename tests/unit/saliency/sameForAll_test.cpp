@@ -180,6 +180,17 @@ TEST(ScaleSaliencyPaths, FillEveryTileAndThreadAlike) {
     expectAsPlain(synthetic(230, 170, 6), options, "several tiles");
 }
 
+TEST(ScaleSaliencyPaths, BoundTheFirstScaleOfManyPixelsRightly) {
+    // ring(35) has 228 pixels, of which a whole number of 16-bit units is 0.8 % less than others'.
+    TScaleSaliencyOptions options;
+    options.scaleMin = 34;
+    options.scaleMax = 40;
+    cv::Mat picture(96, 96, CV_8UC1, cv::Scalar(20));
+    cv::circle(picture, {48, 48}, 25, cv::Scalar(220), cv::FILLED);
+    ASSERT_FALSE(test::plainScaleSaliency(picture, options).empty());
+    expectAsPlain(picture, options, "disc");
+}
+
 TEST(ScaleSaliencyPaths, IncludeThePortableOne) {
     EXPECT_TRUE(hasSimd(ESimd::portable));
     EXPECT_TRUE(hasSimd(bestSimd()));
