@@ -1,6 +1,6 @@
 # What the project links; docs/dependencies.md says why. SALMA_PACKAGES is also what an installed copy looks for.
 find_package(Eigen3 REQUIRED)
-find_package(Boost 1.74 REQUIRED)
+find_package(Boost 1.74 REQUIRED COMPONENTS iostreams)
 find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc imgcodecs features2d calib3d)
 set(SALMA_MRPT_MODULES config core math io serialization rtti system poses img obs opengl maps slam)
 foreach(module ${SALMA_MRPT_MODULES})

@@ -8,7 +8,7 @@ SALMA_BUILD=${SALMA_BUILD:-$SALMA_ROOT/build${SALMA_SANITIZE:+-sanitized}}
 # docs/dependencies.md says why each is there. No recommended packages are pulled in.
 SALMA_PACKAGES=(
     g++ cmake ninja-build ccache
-    libmrpt-dev libopencv-dev libeigen3-dev libboost-dev libsqlitecpp-dev libsqlite3-dev zlib1g-dev
+    libmrpt-dev libopencv-dev libeigen3-dev libboost-dev libboost-iostreams-dev libsqlitecpp-dev libsqlite3-dev zlib1g-dev
     libcli11-dev nlohmann-json3-dev gnuplot-nox fonts-dejavu-core
     libhwy-dev libnanoflann-dev libgtest-dev libbenchmark-dev mrpt-apps mrpt-common
 )
