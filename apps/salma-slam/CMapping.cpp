@@ -86,7 +86,7 @@ bool CMapping::measure(const TEvent& event,
             if (!m_config.run.corners) continue;
             for (const auto& corner : m_corners.extract(lines).corners) addCorner(corner, step);
         } else if (const auto seen = std::dynamic_pointer_cast<CObservationSalientLandmarks>(o)) {
-            for (const auto& patch : seen->landmarks) addPatch(patch, step);
+            for (const auto& patch : seen->landmarks) addPatch(patch, seen->cameraPose, step);
             isStep = isStep || !seen->landmarks.empty();
         } else if (const auto ranges =
                        std::dynamic_pointer_cast<mrpt::obs::CObservationBearingRange>(o)) {

@@ -6,6 +6,7 @@
 #include <salma/observations/CLogWriter.h>
 #include <salma/observations/registerClasses.h>
 #include <salma/slam/CSalientEKF2D.h>
+#include <salma/slam/focalCheck.h>
 #include <salma/viz/CRunWriter.h>
 #include <salma/viz/CTrajectoryScore.h>
 
@@ -121,6 +122,17 @@ void CSlamApp::noticeOfPictures(const TSeen& seen) {
         if (record->landmarks.empty()) ++m_record.picturesWithoutLandmark;
 }
 
+void CSlamApp::noticeOfCalibration() {
+    const auto check = slam::checkFocalLength(m_record);
+    if (!check || !check->isWrong()) return;
+    std::ostringstream text;
+    text << std::fixed << std::setprecision(1) << "the focal length in the log seems to be "
+         << 100 * std::abs(check->error) << " % (sigma " << 100 * check->sigma << " %) too "
+         << (check->error > 0 ? "long" : "short") << ", by the bearings of " << check->sightings
+         << " sightings of salient landmarks: check the camera's calibration";
+    notice(text.str());
+}
+
 void CSlamApp::savePictureRecords(const TSeen& seen, const std::string& folder) const {
     const std::string name = fs::path(m_log.file).filename().string();
     if (m_arguments.embed)
@@ -163,6 +175,7 @@ void CSlamApp::run() {
     ekf.results(m_record);
     if (m_record.trajectory.empty())
         throw std::runtime_error(m_log.file + ": nothing in it could be used for a step");
+    noticeOfCalibration();
     m_record.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 

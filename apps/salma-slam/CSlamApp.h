@@ -48,6 +48,7 @@ class CSlamApp {
     std::string accuracy() const;
     void noticeWhatIsMissing();
     void noticeOfPictures(const TSeen& seen);
+    void noticeOfCalibration();
     void notice(const std::string& text);
     void savePictureRecords(const TSeen& seen, const std::string& folder) const;
     void writeDatabase(const std::string& file) const;

@@ -4,12 +4,16 @@
 #include <salma/appearance/TPolarMeasurement.h>
 
 #include <cmath>
-#include <limits>
 
 namespace salma::apps {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+/// Direction of a point (robot frame) right of the camera's axis [rad].
+double axisAngleOf(const mrpt::math::TPoint3D& point, const mrpt::poses::CPose3D& T_r_c) {
+    mrpt::math::TPoint3D inCamera;
+    T_r_c.inverseComposePoint(point, inCamera);
+    return std::atan2(inCamera.x, inCamera.z);
+}
 
 }  // namespace
 
@@ -23,7 +27,7 @@ mrpt::math::TPoint2D centreOf(const observations::TPatch& patch) {
 
 void addMeasurement(const association::TMeasurement& measurement, slam::TStepInput& step) {
     step.measurements.push_back(measurement);
-    step.pixels.emplace_back(kNone, kNone);
+    step.spots.emplace_back();
 }
 
 void addCorner(const laser::TCorner& corner, slam::TStepInput& step) {
@@ -39,7 +43,9 @@ void addCorner(const laser::TCorner& corner, slam::TStepInput& step) {
     addMeasurement(m, step);
 }
 
-void addPatch(const observations::TPatch& patch, slam::TStepInput& step) {
+void addPatch(const observations::TPatch& patch,
+              const mrpt::poses::CPose3D& T_r_c,
+              slam::TStepInput& step) {
     const auto polar = appearance::polarMeasurement(patch);
     association::TMeasurement m;
     m.kind = association::ELandmarkKind::salient;
@@ -49,7 +55,10 @@ void addPatch(const observations::TPatch& patch, slam::TStepInput& step) {
     m.wallAngleSigma = polar.wallAngleSigma;
     m.patch = std::make_shared<observations::TPatch>(patch);
     step.measurements.push_back(m);
-    step.pixels.push_back(centreOf(patch));
+    slam::TSpot spot;
+    spot.pixel = centreOf(patch);
+    spot.axisAngle = axisAngleOf(patch.pose.mean.translation(), T_r_c);
+    step.spots.push_back(spot);
 }
 
 }  // namespace salma::apps

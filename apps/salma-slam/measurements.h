@@ -11,8 +11,11 @@ namespace salma::apps {
 mrpt::math::TPoint2D centreOf(const observations::TPatch& patch);
 
 /// Each appends one measurement, with its place in the picture if it has one.
+/// T_r_c is the camera on the robot, in its optical frame.
 void addCorner(const laser::TCorner& corner, slam::TStepInput& step);
-void addPatch(const observations::TPatch& patch, slam::TStepInput& step);
+void addPatch(const observations::TPatch& patch,
+              const mrpt::poses::CPose3D& T_r_c,
+              slam::TStepInput& step);
 void addMeasurement(const association::TMeasurement& measurement, slam::TStepInput& step);
 
 }  // namespace salma::apps

@@ -22,9 +22,9 @@ void check(const TStepInput& step) {
                         std::isfinite(mean.y()) && std::isfinite(mean.phi()) &&
                         step.increment.cov.asEigen().allFinite();
     if (!finite) throw std::invalid_argument("Odometry of a step is not finite");
-    if (!step.pixels.empty() && step.pixels.size() != step.measurements.size())
-        throw std::invalid_argument("A step has " + std::to_string(step.pixels.size()) +
-                                    " pixels for " + std::to_string(step.measurements.size()) +
+    if (!step.spots.empty() && step.spots.size() != step.measurements.size())
+        throw std::invalid_argument("A step has " + std::to_string(step.spots.size()) +
+                                    " places in the picture for " + std::to_string(step.measurements.size()) +
                                     " measurements");
 }
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace salma::slam {
 
@@ -32,7 +31,6 @@ void CSalientEKF2D::noteAssociation(const association::TAssociationProblem& prob
 }
 
 void CSalientEKF2D::noteDecisions() {
-    const double nan = std::numeric_limits<double>::quiet_NaN();
     for (std::size_t i = 0; i < m_now.decisions.size(); ++i) {
         const auto& decision = m_now.association->decisions[i];
         const auto& measurement = m_now.input.measurements[i];
@@ -42,8 +40,10 @@ void CSalientEKF2D::noteDecisions() {
         row.kind = measurement.kind;
         row.range = measurement.z[0];
         row.bearing = measurement.z[1];
-        row.u = m_now.input.pixels.empty() ? nan : m_now.input.pixels[i].x;
-        row.v = m_now.input.pixels.empty() ? nan : m_now.input.pixels[i].y;
+        const TSpot spot = m_now.input.spots.empty() ? TSpot() : m_now.input.spots[i];
+        row.u = spot.pixel.x;
+        row.v = spot.pixel.y;
+        row.axisAngle = spot.axisAngle;
         row.decision = m_now.decisions[i];
         if (m_now.landmarks[i] >= 0)
             row.landmark = m_landmarks[static_cast<std::size_t>(m_now.landmarks[i])].id;

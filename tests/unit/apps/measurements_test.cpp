@@ -80,12 +80,14 @@ TEST(AddCorner, AppendsACornerWithoutAPlaceInThePicture) {
     nook.convex = false;
     addCorner(nook, step);
     ASSERT_EQ(step.measurements.size(), 2U);
-    ASSERT_EQ(step.pixels.size(), 2U);
+    ASSERT_EQ(step.spots.size(), 2U);
     EXPECT_EQ(step.measurements[0].kind, association::ELandmarkKind::corner);
     EXPECT_TRUE(step.measurements[0].convex);
     EXPECT_FALSE(step.measurements[1].convex);
     EXPECT_EQ(step.measurements[0].patch, nullptr);
-    for (const auto& pixel : step.pixels) EXPECT_TRUE(std::isnan(pixel.x) && std::isnan(pixel.y));
+    for (const auto& spot : step.spots)
+        EXPECT_TRUE(std::isnan(spot.pixel.x) && std::isnan(spot.pixel.y) &&
+                    std::isnan(spot.axisAngle));
 }
 
 TEST(AddCorner, LeavesOutACornerAtTheRobotWhichHasNoBearing) {
@@ -93,7 +95,7 @@ TEST(AddCorner, LeavesOutACornerAtTheRobotWhichHasNoBearing) {
     addCorner(cornerAt(0, 0), step);
     addCorner(cornerAt(std::nan(""), 1), step);
     EXPECT_TRUE(step.measurements.empty());
-    EXPECT_TRUE(step.pixels.empty());
+    EXPECT_TRUE(step.spots.empty());
 }
 
 constexpr double kFocal = 500, kCx = 320, kCy = 240;  // of a pin-hole camera [px]
@@ -133,16 +135,20 @@ TEST(CentreOf, IsACornerOfAQuadWithoutArea) {
     EXPECT_EQ(centreOf(patch), TPoint2D(1, 2));
 }
 
+/// A camera above the middle of the robot that looks ahead and 30 degrees to the left.
+const mrpt::poses::CPose3D kCamera = mrpt::poses::CPose3D(0, 0, 1.2, M_PI / 6, 0, 0) +
+                                     mrpt::poses::CPose3D(0, 0, 0, -M_PI_2, 0, -M_PI_2);
+
 TEST(AddPatch, AppendsTheCentreInThePictureAndAPatchOfItsOwn) {
     slam::TStepInput step;
     addCorner(cornerAt(2, 1), step);
     {
         auto patch = slantedPatch();
-        addPatch(patch, step);
+        addPatch(patch, kCamera, step);
         patch.quad = {};  // what was appended does not look back at it
     }
     ASSERT_EQ(step.measurements.size(), 2U);
-    ASSERT_EQ(step.pixels.size(), 2U);
+    ASSERT_EQ(step.spots.size(), 2U);
     const auto& m = step.measurements[1];
     EXPECT_EQ(m.kind, association::ELandmarkKind::salient);
     EXPECT_NEAR(m.z(0), std::sqrt(10), 1e-12);
@@ -152,17 +158,19 @@ TEST(AddPatch, AppendsTheCentreInThePictureAndAPatchOfItsOwn) {
     EXPECT_NEAR(m.wallAngleSigma, 0.1, 1e-12);
     ASSERT_NE(m.patch, nullptr);
     EXPECT_EQ(m.patch->quad, slantedPatch().quad);
-    EXPECT_NEAR(step.pixels[1].x, 380, 1e-9);
-    EXPECT_NEAR(step.pixels[1].y, 200, 1e-9);
+    EXPECT_NEAR(step.spots[1].pixel.x, 380, 1e-9);
+    EXPECT_NEAR(step.spots[1].pixel.y, 200, 1e-9);
+    // 18.43 degrees to the left of the robot's axis, and the camera looks 30 degrees to the left
+    EXPECT_NEAR(step.spots[1].axisAngle, M_PI / 6 - std::atan2(1, 3), 1e-12);
 }
 
 TEST(AddPatch, LeavesTheStepAsItWasIfThePatchHasNoBearing) {
     auto patch = slantedPatch();
     patch.pose.mean = mrpt::poses::CPose3D(0, 0, 1, 0, 0, M_PI_2);
     slam::TStepInput step;
-    EXPECT_THROW(addPatch(patch, step), std::invalid_argument);
+    EXPECT_THROW(addPatch(patch, kCamera, step), std::invalid_argument);
     EXPECT_TRUE(step.measurements.empty());
-    EXPECT_TRUE(step.pixels.empty());
+    EXPECT_TRUE(step.spots.empty());
 }
 
 }  // namespace

@@ -201,7 +201,9 @@ TEST(CSalientEKF2D, HoldsACornerBackUntilItIsSeenOftenEnough) {
 TEST(CSalientEKF2D, RecordsWhatItDid) {
     CSalientEKF2D filter(immediateCorners(), {});
     TStepInput input = step(5, 0, {{3, 0.5}});
-    input.pixels = {{10, 20}};
+    input.spots.resize(1);
+    input.spots[0].pixel = {10, 20};
+    input.spots[0].axisAngle = 0.25;
     filter.process(input);
     filter.process(step(6, 0, {{3.01, 0.5}}));
     filter.process(step(7, 0));
@@ -213,6 +215,7 @@ TEST(CSalientEKF2D, RecordsWhatItDid) {
     EXPECT_EQ(record.trajectory[2].sight, ESight::nothing);
     ASSERT_EQ(record.associations.size(), 2u);
     EXPECT_EQ(record.associations[0].u, 10);
+    EXPECT_EQ(record.associations[0].axisAngle, 0.25);
     EXPECT_EQ(record.associations[0].landmark, 0);
     EXPECT_TRUE(std::isnan(record.associations[0].distance2));
     EXPECT_TRUE(std::isnan(record.associations[1].v));
@@ -254,7 +257,7 @@ TEST(CSalientEKF2D, RefusesAStepThatIsNotSound) {
     TStepInput input = step(0, std::numeric_limits<double>::infinity());
     EXPECT_THROW(filter.process(input), std::invalid_argument);
     input = step(0, 0, {{3, 0.5}});
-    input.pixels = {{1, 1}, {2, 2}};
+    input.spots.resize(2);
     EXPECT_THROW(filter.process(input), std::invalid_argument);
 }
 

@@ -5,9 +5,19 @@
 #include <mrpt/poses/CPosePDFGaussian.h>
 #include <salma/slam/TRunRecord.h>
 
+#include <limits>
 #include <vector>
 
 namespace salma::slam {
+
+/// Where a picture shows a measurement; NaN for what no picture shows.
+struct TSpot {
+    /// Its centre [px].
+    mrpt::math::TPoint2D pixel{std::numeric_limits<double>::quiet_NaN(),
+                               std::numeric_limits<double>::quiet_NaN()};
+    /// From the camera's axis to its centre, to the right [rad].
+    double axisAngle{std::numeric_limits<double>::quiet_NaN()};
+};
 
 /// All that happened between the step before and this one.
 struct TStepInput {
@@ -15,8 +25,7 @@ struct TStepInput {
     mrpt::poses::CPosePDFGaussian increment;  //!< Motion since the step before, robot frame.
     mrpt::poses::CPose2D odometry;            //!< T_o_r by odometry alone, for the record.
     std::vector<association::TMeasurement> measurements;
-    /// Centre of each measurement in the picture [px], NaN for what no picture shows; may be empty.
-    std::vector<mrpt::math::TPoint2D> pixels;
+    std::vector<TSpot> spots;  //!< One per measurement, or none at all.
 };
 
 /// A way to make a trajectory and a map of measurements.

@@ -35,6 +35,8 @@ struct TAssociationRow {
     double range{0};    //!< [m]
     double bearing{0};  //!< [rad]
     double u{0}, v{0};  //!< Centre in the picture [px]; NaN for a corner.
+    /// From the camera's axis to the centre, to the right [rad]; NaN for a corner. Not written.
+    double axisAngle{std::numeric_limits<double>::quiet_NaN()};
     EDecision decision{EDecision::clutter};
     int landmark{-1};     //!< Id; -1 for none.
     double distance2{0};  //!< Squared Mahalanobis distance to it; NaN for none.
