@@ -149,4 +149,10 @@ TPatchMatch CPatchMatcher::match(const observations::TPatch& a,
     return out;
 }
 
+bool saysEnough(const observations::TPatch& patch, std::size_t minKeypoints) {
+    const std::size_t keypoints = patch.keypoints.size();
+    return keypoints >= minKeypoints ||
+           (2 * keypoints >= minKeypoints && patch.regions.size() >= minKeypoints);
+}
+
 }  // namespace salma::appearance

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "lengthErrors.h"
 #include "sampleWall.h"
 
 namespace salma::appearance {
@@ -16,6 +17,8 @@ namespace {
 
 constexpr double kBorder = 1;  // bilinear sampling needs a neighbour [px]
 constexpr int kErrorSources = 10;
+constexpr int kOutlineGrid = 20;  // places per axis at which a rectangle's visible share is taken
+constexpr double kSurelySigmas = 2;  // a view is coarse if its resolution is so, with this margin
 
 using ErrorVector = Eigen::Matrix<double, kErrorSources, 1>;
 
@@ -42,6 +45,25 @@ std::pair<double, double> coarsest(const CWallView& view, const TWallRectangle& 
         least = {std::min(least.first, here.first), std::min(least.second, here.second)};
     }
     return least;
+}
+
+/// Share of the rectangle that the picture shows; 0 if a part lies behind the camera.
+double visibleShare(const CWallView& view, const TWallRectangle& r) {
+    bool all = true;
+    for (const auto& p : outline(r)) {
+        const auto pixel = view.toPixel(p.x, p.y);
+        if (!pixel) return 0;
+        all = all && view.inPicture(*pixel, kBorder);
+    }
+    if (all) return 1;
+    int seen = 0;
+    for (int i = 0; i < kOutlineGrid; ++i)
+        for (int j = 0; j < kOutlineGrid; ++j) {
+            const auto pixel = view.toPixel(r.u0 + (i + 0.5) / kOutlineGrid * (r.u1 - r.u0),
+                                            r.v0 + (j + 0.5) / kOutlineGrid * (r.v1 - r.v0));
+            seen += pixel && view.inPicture(*pixel, kBorder) ? 1 : 0;
+        }
+    return static_cast<double>(seen) / (kOutlineGrid * kOutlineGrid);
 }
 
 cv::Size gridOf(const TWallRectangle& r, double pixelsPerMetre) {
@@ -74,6 +96,8 @@ void TRectificationOptions::visit(config::COptionVisitor& v) {
     using namespace config;
     v.number("px_per_m_min", minPixelsPerMetre, moreThan(0), "coarser views are refused");
     v.number("px_per_m_max", maxPixelsPerMetre, moreThan(0), "finer views are reduced to this");
+    v.number("outside_max", maxOutside, between(0, 0.5),
+             "share of a rectangle that may lie outside the picture");
     v.degrees("incidence_max_deg", maxIncidence, insideOf(0, 90),
               "more slanting views are refused");
     v.number("size_min_m", minSize, moreThan(0), "smallest width and height of a patch");
@@ -131,16 +155,18 @@ ERefusal CRectifier::check(const cv::Mat& grey,
         return size >= m_options.minSize && size <= m_options.maxSize;
     };
     if (!allowed(r.u1 - r.u0) || !allowed(r.v1 - r.v0)) return ERefusal::badRectangle;
-    for (const auto& p : outline(r)) {
-        const auto pixel = view.toPixel(p.x, p.y);
-        if (!pixel || !view.inPicture(*pixel, kBorder)) return ERefusal::outsidePicture;
-    }
+    if (!(visibleShare(view, r) >= 1 - m_options.maxOutside)) return ERefusal::outsidePicture;
     if (!(view.incidence((r.u0 + r.u1) / 2, (r.v0 + r.v1) / 2) <= m_options.maxIncidence))
         return ERefusal::grazing;
-    const auto resolution = coarsest(view, r);
-    if (!(std::min(resolution.first, resolution.second) >= m_options.minPixelsPerMetre))
-        return ERefusal::coarse;
     return ERefusal::none;
+}
+
+bool CRectifier::surelyCoarse(const observations::TPatch& patch,
+                              const std::pair<double, double>& resolution) const {
+    const TLengthErrors errors = lengthErrors(patch);
+    const double u = resolution.first * (1 + kSurelySigmas * std::sqrt(errors.u));
+    const double v = resolution.second * (1 + kSurelySigmas * std::sqrt(errors.v));
+    return !(std::min(u, v) >= m_options.minPixelsPerMetre);
 }
 
 TRectification CRectifier::rectify(const cv::Mat& grey,
@@ -151,20 +177,20 @@ TRectification CRectifier::rectify(const cv::Mat& grey,
     TRectification result;
     result.refusal = check(grey, view, r);
     if (result.refusal != ERefusal::none) return result;
-    const auto coarse = coarsest(view, r);
-    const double resolution =
-        std::min(m_options.maxPixelsPerMetre, std::min(coarse.first, coarse.second));
     observations::TPatch patch;
-    const cv::Mat picture = sampleWall(grey, view, r, gridOf(r, resolution)).grey;
-    patch.picture = mrpt::img::CImage(picture, mrpt::img::DEEP_COPY);
     patch.width = r.u1 - r.u0;
     patch.height = r.v1 - r.v0;
-    patch.pixelsPerMetre = resolution;
+    patch.pose = pose(view, (r.u0 + r.u1) / 2, (r.v0 + r.v1) / 2);
+    patch.incidence = view.incidence((r.u0 + r.u1) / 2, (r.v0 + r.v1) / 2);
+    const auto coarse = coarsest(view, r);
+    if (surelyCoarse(patch, coarse)) return {std::nullopt, ERefusal::coarse};
+    patch.pixelsPerMetre =
+        std::min(m_options.maxPixelsPerMetre, std::min(coarse.first, coarse.second));
+    const cv::Mat picture = sampleWall(grey, view, r, gridOf(r, patch.pixelsPerMetre)).grey;
+    patch.picture = mrpt::img::CImage(picture, mrpt::img::DEEP_COPY);
     const auto corners = outline(r);
     for (std::size_t i = 0; i < patch.quad.size(); ++i)
         patch.quad[i] = *view.toPixel(corners[2 * i].x, corners[2 * i].y);
-    patch.pose = pose(view, (r.u0 + r.u1) / 2, (r.v0 + r.v1) / 2);
-    patch.incidence = view.incidence((r.u0 + r.u1) / 2, (r.v0 + r.v1) / 2);
     result.patch = std::move(patch);
     return result;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <opencv2/imgproc.hpp>
 
 #include "sampleWall.h"
@@ -89,12 +90,12 @@ std::vector<observations::TSalientRegion> CRegionDescriptor::describe(
         region.y = ((wall.rows - 1) / 2.0 - region.y) * pixelV;
         region.s /= ppm;
     }
-    regions.erase(std::remove_if(regions.begin(), regions.end(),
-                                 [&](const auto& region) {
-                                     return !(std::abs(region.x) <= width / 2 &&
-                                              std::abs(region.y) <= height / 2);
-                                 }),
-                  regions.end());
+    const auto seen = [&](const auto& region) {
+        if (!(std::abs(region.x) <= width / 2 && std::abs(region.y) <= height / 2)) return false;
+        const auto pixel = view.toPixel((r.u0 + r.u1) / 2 + region.x, (r.v0 + r.v1) / 2 + region.y);
+        return pixel && view.inPicture(*pixel);
+    };
+    regions.erase(std::remove_if(regions.begin(), regions.end(), std::not_fn(seen)), regions.end());
     return regions;
 }
 

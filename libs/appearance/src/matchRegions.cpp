@@ -2,13 +2,12 @@
 #include "matchRegions.h"
 
 #include <mrpt/math/distributions.h>
-#include <salma/appearance/TPolarMeasurement.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
 
+#include "lengthErrors.h"
 #include "regionLooks.h"
 
 namespace salma::appearance {
@@ -19,30 +18,7 @@ using Indices = std::vector<std::size_t>;
 constexpr int kRefinements = 3;
 constexpr int kFewest = 3;  // fewer strong regions in each patch say nothing
 
-/// Relative variance of lengths along u and along v on a patch [-].
-struct TStretch {
-    double u{0}, v{0};
-};
-
-/** What the pose's covariance means for lengths on the patch: for incidence phi and a distance h to
- * the wall, a length along u errs by 2 tan(phi) d_phi + dh / h, one along v by
- * tan(phi) d_phi + dh / h. Not finite if the pose is not, or is the robot's own. */
-TStretch stretchOf(const observations::TPatch& patch) {
-    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-    if (!(std::hypot(patch.pose.mean.x(), patch.pose.mean.y()) > 0)) return {kNone, kNone};
-    const TPolarMeasurement m = polarMeasurement(patch);
-    const double angle = m.full(1, 1) + m.full(2, 2) - 2 * m.full(1, 2);
-    const double c = std::cos(m.wallAngle);
-    const double s = std::sin(m.wallAngle);
-    const auto& P = patch.pose.cov;
-    const double normal = c * c * P(0, 0) + 2 * c * s * P(0, 1) + s * s * P(1, 1);
-    const double h = std::abs(c * patch.pose.mean.x() + s * patch.pose.mean.y());
-    const double slant = std::tan(std::min(patch.incidence, 1.4));
-    const double depth = normal / std::max(h * h, 0.01);
-    return {4 * slant * slant * angle + depth, slant * slant * angle + depth};
-}
-
-bool usable(const observations::TPatch& patch, const TStretch& stretch) {
+bool usable(const observations::TPatch& patch, const TLengthErrors& stretch) {
     const auto finite = [](const observations::TSalientRegion& r) {
         return std::isfinite(r.x + r.y + r.s) && r.s > 0;
     };
@@ -65,7 +41,7 @@ class CRegionPairing {
     CRegionPairing(const TRegionMatchOptions& options,
                    const observations::TPatch& a,
                    const observations::TPatch& b,
-                   const TStretch& stretch)
+                   const TLengthErrors& stretch)
         : m_options(options),
           m_a(a),
           m_b(b),
@@ -188,7 +164,7 @@ class CRegionPairing {
     const observations::TPatch& m_a;
     const observations::TPatch& m_b;
     double m_gate;
-    TStretch m_stretch;
+    TLengthErrors m_stretch;
     std::vector<TCandidate> m_candidates;
 };
 
@@ -199,7 +175,7 @@ TRegionAgreement matchRegions(const TRegionMatchOptions& options,
                               const observations::TPatch& b) {
     TRegionAgreement out;
     if (a.regions.empty() || b.regions.empty()) return out;
-    const TStretch ofA = stretchOf(a), ofB = stretchOf(b);
+    const TLengthErrors ofA = lengthErrors(a), ofB = lengthErrors(b);
     if (!usable(a, ofA) || !usable(b, ofB)) return out;
     const CRegionPairing pairing(options, a, b, {ofA.u + ofB.u, ofA.v + ofB.v});
     Indices chosen = pairing.onCommonShift(true, out.tx, out.ty);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <salma/appearance/CPatchMatcher.h>
 #include <salma/landmarks/CFrontEnd.h>
 
 #include <algorithm>
@@ -41,7 +42,7 @@ bool partlyHidden(const TWallRectangle& r,
 void TFrontEndOptions::visit(config::COptionVisitor& v) {
     v.flag("join_by_mser", joinByMser, "regions inside one maximally stable region are one entity");
     v.integer("min_keypoints", minKeypoints, config::between(0, 10000),
-              "patches with fewer keypoints are refused");
+              "patches with fewer are refused; half of them do beside as many regions");
     v.number("min_size_m", minSize, config::moreThan(0), "smallest width and height of an entity");
     v.number("max_size_m", maxSize, config::moreThan(0), "largest width and height of an entity");
     v.number("max_skew_s", maxSkew, config::atLeast(0),
@@ -111,9 +112,9 @@ std::optional<TPatch> CFrontEnd::landmarkOf(const TEntity& entity,
     if (!rectified.patch) return refuse(appearance::asString(rectified.refusal));
     TPatch& patch = *rectified.patch;
     patch.keypoints = m_descriptor.describe(patch);
-    if (patch.keypoints.size() < static_cast<std::size_t>(m_options.minKeypoints))
-        return refuse("too few keypoints");
     patch.regions = m_secondLook.describe(view.grey, wall, *border);
+    if (!appearance::saysEnough(patch, static_cast<std::size_t>(m_options.minKeypoints)))
+        return refuse("too few keypoints");
     patch.texture = m_texture.describe(view.grey, wall, *border);
     return std::move(rectified.patch);
 }

@@ -254,6 +254,20 @@ TEST(CPatchMatcher, SaysNothingByRegionsThatAreNone) {
     }
 }
 
+TEST(CPatchMatcher, HoldsHalfOfTheKeypointsForEnoughBesideAsManyRegions) {
+    const auto enough = [](std::size_t keypoints, std::size_t regions) {
+        TPatch patch = randomPatch(1, keypoints);
+        patch.regions.resize(regions);
+        return saysEnough(patch, 12);
+    };
+    EXPECT_TRUE(enough(12, 0));
+    EXPECT_FALSE(enough(11, 11));
+    EXPECT_TRUE(enough(11, 12));
+    EXPECT_TRUE(enough(6, 12));
+    EXPECT_FALSE(enough(5, 100));
+    EXPECT_TRUE(saysEnough(TPatch(), 0));
+}
+
 /// NEES of (tx, ty, rotation, log scale).
 double neesOf(const TRelativePose& found, const TSimilarity& truth) {
     const Eigen::Vector4d error(found.similarity.tx - truth.tx, found.similarity.ty - truth.ty,

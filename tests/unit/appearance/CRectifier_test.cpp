@@ -96,6 +96,31 @@ TEST(CRectifier, RefusesEntitiesThatThePictureCuts) {
     EXPECT_EQ(refusalOf(view, {-0.4, 0.3, 0.4, 1.9}), ERefusal::outsidePicture);
 }
 
+TEST(CRectifier, KeepsTheExtentOfWhatReachesALittleOutOfThePicture) {
+    const CWallView view = viewFrom(0, test::wallLine(2, 0));
+    const double right = view.toWall({638, 240})->x;  // where the picture ends
+    const TWallRectangle little{right - 0.95, 0.3, right + 0.05, 0.9};
+    const TWallRectangle much{right - 0.75, 0.3, right + 0.25, 0.9};
+    EXPECT_EQ(refusalOf(view, much), ERefusal::outsidePicture);
+    std::mt19937 random(1);
+    const cv::Mat picture = test::renderPoster(view, chessboard(), little, {}, random);
+    const auto patch = CRectifier().rectify(picture, view, little).patch;
+    ASSERT_TRUE(patch);
+    EXPECT_NEAR(patch->width, 1, 1e-12);
+    EXPECT_NEAR(patch->pose.mean.y(), -(right - 0.45), 1e-9) << "the centre of the whole";
+    EXPECT_GT(patch->quad[1].x, 640);
+    const cv::Mat grey = patch->picture.asCvMatRef();
+    const int seen = cvRound(0.95 * grey.cols);  // then the last pixel is repeated
+    for (int i = 0; i < 6; ++i)  // through the middles of the squares
+        for (int c = seen + 3; c < grey.cols; ++c) {
+            const int r = (2 * i + 1) * grey.rows / 12;
+            EXPECT_NEAR(grey.at<std::uint8_t>(r, c), grey.at<std::uint8_t>(r, seen + 2), 2);
+        }
+    TRectificationOptions strict;
+    strict.maxOutside = 0;
+    EXPECT_EQ(CRectifier(strict).rectify(picture, view, little).refusal, ERefusal::outsidePicture);
+}
+
 TEST(CRectifier, RefusesWhatLiesBehindTheCamera) {
     EXPECT_EQ(refusalOf(viewFrom(M_PI, test::wallLine(2, 0)), kPlace), ERefusal::outsidePicture);
     // partly behind: the wall passes beside the camera
@@ -125,6 +150,24 @@ TEST(CRectifier, RefusesBelow40PixelsPerMetre) {
     };
     EXPECT_EQ(at(17.4), ERefusal::none);
     EXPECT_EQ(at(17.8), ERefusal::coarse);
+}
+
+TEST(CRectifier, DoesNotRefuseAsCoarseWhatIsPerhapsFineEnough) {
+    // 63 deg: 1 deg of the wall's angle means 7 % of the resolution along it
+    const auto at = [](double distance, double angleSigma) {
+        auto wall = test::wallLine(distance * std::cos(1.1), 1.1);
+        wall.covariance(1, 1) = angleSigma * angleSigma;
+        const CWallView view(test::pannedCamera(), test::panTiltPose({0, 0, 0.5}, 0, 0), wall);
+        const double u = distance * std::sin(1.1);
+        EXPECT_NEAR(view.pixelsPerMetre(u, 0.5), 705 / distance * std::cos(1.1), 0.01);
+        return refusalOf(view, {u - 0.03, 0.47, u + 0.03, 0.53});
+    };
+    const double limit = 705 * std::cos(1.1) / 40;
+    const double degree = mrpt::DEG2RAD(1.0);
+    EXPECT_EQ(at(0.97 * limit, degree), ERefusal::none);
+    EXPECT_EQ(at(1.08 * limit, degree), ERefusal::none);  // within two sigmas
+    EXPECT_EQ(at(1.08 * limit, 0.001), ERefusal::coarse);
+    EXPECT_EQ(at(1.25 * limit, degree), ERefusal::coarse);
 }
 
 TEST(CRectifier, RefusesPicturesThatAreNone) {

@@ -124,4 +124,9 @@ class CPatchMatcher {
     TRegionMatchOptions m_regionOptions;
 };
 
+/** True if a patch holds enough to be recognised: `minKeypoints`, or half of them and as many
+ * regions. Small and slanting views leave few keypoints, but regions are sought at all scales of
+ * the wall. */
+bool saysEnough(const observations::TPatch& patch, std::size_t minKeypoints);
+
 }  // namespace salma::appearance

@@ -8,13 +8,15 @@
 
 #include <opencv2/core/mat.hpp>
 #include <optional>
+#include <utility>
 
 namespace salma::appearance {
 
 /// Section [rectification] of config.ini.
 struct TRectificationOptions : public config::TStrictOptions<TRectificationOptions> {
-    double minPixelsPerMetre{40};              //!< Coarser views are refused [px/m].
-    double maxPixelsPerMetre{400};             //!< Finer views are reduced to this [px/m].
+    double minPixelsPerMetre{40};   //!< Coarser views are refused [px/m].
+    double maxPixelsPerMetre{400};  //!< Finer views are reduced to this [px/m].
+    double maxOutside{0.1};         //!< Share of a rectangle that may lie outside the picture.
     double maxIncidence{mrpt::DEG2RAD(75.0)};  //!< Views more slanting are refused [rad].
     double minSize{0.05};                      //!< Smallest width and height of a patch [m].
     double maxSize{4};                         //!< Largest width and height of a patch [m].
@@ -42,9 +44,9 @@ enum class ERefusal {
     noPicture,       //!< The picture is empty, or not of the camera's size.
     badWall,         //!< The wall line's covariance is not finite.
     badRectangle,    //!< Empty, not finite, too small or too large.
-    outsidePicture,  //!< Not wholly in the picture, or behind the camera.
+    outsidePicture,  //!< More than `outside_max` of it out of the picture, or behind the camera.
     grazing,         //!< More slanting than `incidence_max_deg`.
-    coarse           //!< Fewer pixels per metre than `px_per_m_min`.
+    coarse           //!< Surely (by two sigmas) fewer pixels per metre than `px_per_m_min`.
 };
 
 /// The reason in words, e.g. "grazing".
@@ -58,7 +60,9 @@ struct TRectification {
 /** Cuts a rectangle of a wall out of a picture as one would see it from straight ahead.
  *
  * The patch's resolution is that of the view at the rectangle's coarser axis and place, at most
- * `px_per_m_max`; sampling averages over the pixel's area. Its pose comes from the ray of the
+ * `px_per_m_max`; sampling averages over the pixel's area. Where a rectangle reaches out of the
+ * picture by no more than `outside_max`, the patch keeps its whole extent, and the last pixels that
+ * are seen are repeated there. Its pose comes from the ray of the
  * centre meeting the wall: covariance from the line's (rho, alpha), from the pixel, and from the
  * camera's place on the robot; pitch and roll, which a vertical wall does not measure, carry the
  * prior of the options, and so does z in addition to what the ray gives. */
@@ -82,6 +86,9 @@ class CRectifier {
 
  private:
     ERefusal check(const cv::Mat& grey, const CWallView& view, const TWallRectangle& r) const;
+    /// `resolution` along u and v [px/m], wrong as far as the patch's pose is.
+    bool surelyCoarse(const observations::TPatch& patch,
+                      const std::pair<double, double>& resolution) const;
 
     TRectificationOptions m_options;
 };

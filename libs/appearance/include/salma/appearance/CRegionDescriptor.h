@@ -40,7 +40,8 @@ class CRegionDescriptor {
 
     /** \param grey [rows x cols], CV_8UC1, as the camera of `view` delivers it.
      * \return Most salient first: centre (x right, y up) and radius s [m] in the patch frame, that
-     * is from the rectangle's centre; H, W, Y as the detector has them. Empty for a wall of one
+     * is from the rectangle's centre; H, W, Y as the detector has them. None lies where the
+     * rectangle reaches out of the picture. Empty for a wall of one
      * grey, and for a rectangle that is empty, not finite or not seen. */
     std::vector<observations::TSalientRegion> describe(const cv::Mat& grey,
                                                        const CWallView& view,

@@ -24,7 +24,7 @@ namespace salma::landmarks {
 /// Section [front_end] of config.ini.
 struct TFrontEndOptions : public config::TStrictOptions<TFrontEndOptions> {
     bool joinByMser{true};    //!< Regions inside one maximally stable region make one entity.
-    int minKeypoints{12};     //!< Patches with fewer say too little to be recognised.
+    int minKeypoints{12};     //!< Patches need as many: appearance::saysEnough().
     double minSize{0.2};      //!< Smallest width and height of an entity [m].
     double maxSize{2.5};      //!< Largest [m].
     double maxSkew{0.25};     //!< Longest gap between a picture and the scan it is joined with [s].
