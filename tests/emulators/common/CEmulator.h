@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "CPseudoTerminal.h"
+
+namespace salma::test {
+
+/// What a device does with bytes and time; knows nothing of cables. Times are seconds of the
+/// system's clock.
+class CEmulatedDevice {
+ public:
+    virtual ~CEmulatedDevice() = default;
+    /// `rate` is that of the computer, as a termios constant.
+    virtual void receive(const TBytes& bytes, unsigned rate, double now) = 0;
+    /// What the device has to say by now.
+    virtual TBytes transmit(double now) = 0;
+};
+
+/// Runs a device at the end of a cable, in a thread of its own, until destroyed.
+class CEmulator {
+ public:
+    /// \param device Must outlive this object; touch it through locked() only.
+    CEmulator(CEmulatedDevice& device, const std::string& link);
+    ~CEmulator();
+    CEmulator(const CEmulator&) = delete;
+    CEmulator& operator=(const CEmulator&) = delete;
+
+    /// Calls `body` while the device stands still.
+    void locked(const std::function<void()>& body);
+
+    void unplug();
+    void plug();
+
+    static double now();
+
+ private:
+    void run();
+
+    CEmulatedDevice& m_device;
+    CPseudoTerminal m_terminal;
+    std::mutex m_mutex;
+    std::atomic<bool> m_stop{false};
+    std::thread m_thread;
+};
+
+}  // namespace salma::test
