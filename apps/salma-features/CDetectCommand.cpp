@@ -50,12 +50,13 @@ TDetectConfig TDetectConfig::load(const std::string& file) {
     loaded.clustering.loadFromConfigFile(*ini, "clustering");
     loaded.affine.loadFromConfigFile(*ini, "affine");
     loaded.mser.loadFromConfigFile(*ini, "mser");
+    loaded.quad.loadFromConfigFile(*ini, "quad");
     return loaded;
 }
 
 std::string TDetectConfig::asIni() const {
     return saliency.asIni("saliency") + "\n" + clustering.asIni("clustering") + "\n" +
-           affine.asIni("affine") + "\n" + mser.asIni("mser");
+           affine.asIni("affine") + "\n" + mser.asIni("mser") + "\n" + quad.asIni("quad");
 }
 
 CDetectCommand::CDetectCommand(CLI::App& app)
@@ -63,9 +64,12 @@ CDetectCommand::CDetectCommand(CLI::App& app)
     m_command->add_option("IMAGE", m_images, "pictures; their names must differ");
     m_command->add_option("--out", m_out, "folder for the results");
     m_command->add_option("--config", m_configFile,
-                          "ini file: [saliency], [clustering], [affine], [mser]");
-    m_command->add_option("--detector", m_detector, "scale-saliency (default) or mser")
-        ->check(CLI::IsMember({"scale-saliency", "mser"}));
+                          "ini file: [saliency], [clustering], [affine], [mser], [quad]");
+    m_command
+        ->add_option("--detector", m_detector,
+                     "scale-saliency (default), mser, both of them, or quad: closed contours "
+                     "with four sides")
+        ->check(CLI::IsMember({"scale-saliency", "mser", "both", "quad"}));
     m_command->add_flag("--affine", m_affine,
                         "adapt the regions to ellipses, as [affine] use does");
     m_command->add_flag("--peaks", m_peaks, "write all entropy peaks too, before clustering");
@@ -84,8 +88,9 @@ void CDetectCommand::checkUsage() const {
     if (m_out.empty()) throw CLI::RequiredError("--out");
     if (!(m_yMin >= 0))  // false for NaN, which CLI11 lets pass
         throw CLI::ValidationError("--y-min", "must be a number from 0");
-    if (m_detector == "mser" && (m_peaks || m_affine || m_command->count("--y-min") > 0))
-        throw CLI::ValidationError("--detector mser",
+    const bool salient = m_detector == "scale-saliency" || m_detector == "both";
+    if (!salient && (m_peaks || m_affine || m_command->count("--y-min") > 0))
+        throw CLI::ValidationError("--detector " + m_detector,
                                    "has no entropy peaks, no saliency and no --affine");
 }
 
@@ -104,13 +109,19 @@ void CDetectCommand::run(std::ostream& out) {
             const cv::Mat grey = readGrey(image);
             const std::string stem = std::filesystem::path(image).stem().string();
             const std::string prefix = folder / stem;
-            out << stem << ": " << grey.cols << "x" << grey.rows << ", "
-                << (m_detector == "mser" ? findStable(grey, prefix) : findSalient(grey, prefix))
+            out << stem << ": " << grey.cols << "x" << grey.rows << ", " << find(grey, prefix)
                 << "\n";
             progress.step();
         }
     }
     folder.publishInto();
+}
+
+std::string CDetectCommand::find(const cv::Mat& grey, const std::string& prefix) const {
+    if (m_detector == "quad") return findQuads(grey, prefix);
+    if (m_detector == "mser") return findStable(grey, prefix);
+    if (m_detector == "scale-saliency") return findSalient(grey, prefix);
+    return findSalient(grey, prefix) + ", " + findStable(grey, prefix + ".stable");
 }
 
 std::string CDetectCommand::findSalient(const cv::Mat& grey, const std::string& prefix) const {
@@ -153,6 +164,13 @@ std::string CDetectCommand::findStable(const cv::Mat& grey, const std::string& p
     saliency::writeVgg(prefix + ".vgg", ellipses);
     writePicture(prefix + ".overlay.png", drawOverlay(grey, regions));
     return std::to_string(regions.size()) + " stable regions";
+}
+
+std::string CDetectCommand::findQuads(const cv::Mat& grey, const std::string& prefix) const {
+    const auto quads = saliency::CQuadrilaterals(m_config.quad).detect(grey);
+    saliency::writeQuadsCsv(prefix + ".quads.csv", quads);
+    writePicture(prefix + ".overlay.png", drawOverlay(grey, quads));
+    return std::to_string(quads.size()) + " quadrilaterals";
 }
 
 }  // namespace salma::apps

@@ -3,6 +3,7 @@
 
 #include <salma/saliency/CAffineSaliency.h>
 #include <salma/saliency/CClusterer.h>
+#include <salma/saliency/CQuadrilaterals.h>
 #include <salma/saliency/CScaleSaliency.h>
 #include <salma/saliency/CStableRegions.h>
 
@@ -13,12 +14,13 @@
 
 namespace salma::apps {
 
-/// What `detect` takes from a configuration file: [saliency], [clustering], [affine], [mser].
+/// What `detect` takes from a configuration file.
 struct TDetectConfig {
     saliency::TScaleSaliencyOptions saliency;
     saliency::TClusteringOptions clustering;
     saliency::TAffineOptions affine;
     saliency::TStableRegionsOptions mser;
+    saliency::TQuadOptions quad;
 
     /// Other sections of the file are left unread. \throw std::invalid_argument
     static TDetectConfig load(const std::string& file);
@@ -45,8 +47,10 @@ class CDetectCommand {
     /// What CLI11 does not check itself. \throw CLI::ParseError
     void checkUsage() const;
     /// Each writes the files that begin with `prefix`, and says in words what was found.
+    std::string find(const cv::Mat& grey, const std::string& prefix) const;
     std::string findSalient(const cv::Mat& grey, const std::string& prefix) const;
     std::string findStable(const cv::Mat& grey, const std::string& prefix) const;
+    std::string findQuads(const cv::Mat& grey, const std::string& prefix) const;
 
     CLI::App* m_command;
     TDetectConfig m_config;

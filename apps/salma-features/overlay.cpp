@@ -31,13 +31,16 @@ void outline(cv::Mat& picture,
     cv::ellipse(picture, box, colour, thickness, cv::LINE_AA);
 }
 
-void number(cv::Mat& picture, const saliency::TEllipse& region, std::size_t rank) {
+void number(cv::Mat& picture, const cv::Point& place, std::size_t rank) {
     const std::string text = std::to_string(rank + 1);
-    const double corner = region.radius() * 0.7;
-    const cv::Point place(cv::Point2d(region.u + corner + 2, region.v - corner));
     const auto font = cv::FONT_HERSHEY_SIMPLEX;
     cv::putText(picture, text, place, font, 0.4, cv::Scalar(0, 0, 0), 3, cv::LINE_AA);
     cv::putText(picture, text, place, font, 0.4, colourOf(rank), 1, cv::LINE_AA);
+}
+
+cv::Point besideOf(const saliency::TEllipse& region) {
+    const double corner = region.radius() * 0.7;
+    return cv::Point2d(region.u + corner + 2, region.v - corner);
 }
 
 cv::Mat inColour(const cv::Mat& grey) {
@@ -54,7 +57,7 @@ cv::Mat drawOverlay(const cv::Mat& grey, const std::vector<saliency::TEllipse>& 
     for (std::size_t i = ranked; i < regions.size(); ++i)
         outline(picture, regions[i], cv::Scalar::all(255), 1);
     for (std::size_t i = ranked; i-- > 0;) outline(picture, regions[i], colourOf(i), 2);
-    for (std::size_t i = ranked; i-- > 0;) number(picture, regions[i], i);
+    for (std::size_t i = ranked; i-- > 0;) number(picture, besideOf(regions[i]), i);
     return picture;
 }
 
@@ -64,6 +67,19 @@ cv::Mat drawOverlay(const cv::Mat& grey, const std::vector<saliency::TStableRegi
         const bool dark = region.polarity == saliency::EPolarity::darkOnBright;
         outline(picture, region.ellipse, dark ? cv::Scalar(255, 80, 0) : cv::Scalar(0, 140, 255),
                 1);
+    }
+    return picture;
+}
+
+cv::Mat drawOverlay(const cv::Mat& grey, const std::vector<saliency::TQuad>& quads) {
+    cv::Mat picture = inColour(grey);
+    for (std::size_t i = quads.size(); i-- > 0;) {
+        const auto& c = quads[i].corners;
+        const std::vector<cv::Point> outline(c.begin(), c.end());
+        const bool ranked = i < kRanked;
+        cv::polylines(picture, outline, true, ranked ? colourOf(i) : cv::Scalar::all(255),
+                      ranked ? 2 : 1, cv::LINE_AA);
+        if (ranked) number(picture, outline[1] + cv::Point(4, 0), i);
     }
     return picture;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <salma/saliency/CQuadrilaterals.h>
 #include <salma/saliency/CStableRegions.h>
 #include <salma/saliency/TEllipse.h>
 
@@ -15,5 +16,8 @@ cv::Mat drawOverlay(const cv::Mat& grey, const std::vector<saliency::TEllipse>& 
 
 /// The same for stable regions: dark ones blue, bright ones orange, without numbers.
 cv::Mat drawOverlay(const cv::Mat& grey, const std::vector<saliency::TStableRegion>& regions);
+
+/// The same for quadrilaterals: the first 20 numbered and coloured like regions.
+cv::Mat drawOverlay(const cv::Mat& grey, const std::vector<saliency::TQuad>& quads);
 
 }  // namespace salma::apps

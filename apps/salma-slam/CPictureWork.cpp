@@ -144,9 +144,10 @@ TSeen CPictureWork::run() const {
         seen.records[i] = look(all[i], results[i]);
         progress.step();
     });
-    for (const auto& result : results)
-        for (const auto& [reason, count] : result.refused)
-            if (count > 0) seen.refused[reason] += count;
+    for (const auto& result : results) {
+        seen.split += result.split;
+        for (const auto& [reason, count] : result.refused) seen.refused[reason] += count;
+    }
     return seen;
 }
 

@@ -24,6 +24,7 @@ struct TSeen {
     std::size_t withoutHeadPose{0};  //!< The log has pan/tilt records, but none near in time.
     std::size_t alreadyRecorded{0};  //!< The log has their record.
     std::map<std::string, std::size_t> refused;  //!< Sum of the front end's refusals.
+    std::size_t split{0};                        //!< Groups of regions on several planes.
 };
 
 /** Sends every picture of a log through the front end.

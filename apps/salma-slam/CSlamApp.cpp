@@ -117,6 +117,8 @@ void CSlamApp::noticeOfPictures(const TSeen& seen) {
     if (m_arguments.require.count("pictures") != 0 && seen.filesMissing == seen.pictures &&
         seen.pictures > 0)
         throw std::runtime_error(m_log.imagesFolder + ": holds none of the log's pictures");
+    m_record.refused = seen.refused;
+    m_record.splitGroups = seen.split;
     m_record.pictures = seen.records.size();
     for (const auto& record : seen.records)
         if (record->landmarks.empty()) ++m_record.picturesWithoutLandmark;

@@ -19,6 +19,7 @@ void forEachSection(CONFIG& c, VISITOR visitor) {
     visitor("saliency", c.seeing.saliency);
     visitor("clustering", c.seeing.clustering);
     visitor("mser", c.seeing.mser);
+    visitor("quad", c.seeing.quad);
     visitor("selection", c.seeing.selection);
     visitor("border", c.seeing.border);
     visitor("rectification", c.seeing.rectification);

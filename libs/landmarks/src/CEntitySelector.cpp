@@ -98,68 +98,97 @@ TEntity entityOf(const std::vector<const TPlaced*>& group, const std::vector<CWa
     return entity;
 }
 
-/// The regions that are salient enough and lie on a wall; the others are counted.
+/// The regions that lie on a wall at a height where entities hang; the others are counted.
 std::vector<TPlaced> place(const std::vector<TSalientRegion>& regions,
                            const std::vector<CWallView>& walls,
                            const TSelectionOptions& options,
                            TSelection& counts) {
     std::vector<TPlaced> placed;
     for (const auto& region : regions) {
-        if (!(region.Y >= options.yMin)) {
-            ++counts.belowThreshold;
+        if (!std::isfinite(region.x + region.y) || !(region.s > 0 && region.s < 1e9)) {
+            ++counts.notFinite;
             continue;
         }
         const std::size_t wall = wallOf({region.x, region.y}, walls, options.wallMargin);
         std::optional<mrpt::math::TPoint2D> at;
         if (wall < walls.size()) at = walls[wall].toWall({region.x, region.y});
-        if (!at || !(at->y >= options.lowest && at->y <= options.highest))
+        if (!at)
             ++counts.onNoWall;
+        else if (!(at->y >= options.lowest && at->y <= options.highest))
+            ++counts.outOfHeight;
         else
             placed.push_back({region, wall, *at});
     }
     return placed;
 }
 
-/// Regions of one plane that touch or share a stable region, each group in the order of `placed`.
-std::vector<std::vector<const TPlaced*>> grouped(const std::vector<TPlaced>& placed,
-                                                 const std::vector<std::vector<cv::Point>>& stable,
-                                                 const std::vector<CWallView>& walls,
-                                                 const TSelectionOptions& options) {
-    CGroups groups(placed.size());
-    const auto joinIfOnePlane = [&](std::size_t i, std::size_t j) {
-        const std::size_t a = placed[i].wall, b = placed[j].wall;
-        if (a == b || samePlane(walls[a], walls[b], options.samePlane)) groups.join(i, j);
-    };
+/// Calls join(i, j) for all regions that touch or lie in one area.
+template <class JOIN>
+void forEachJoin(const std::vector<TPlaced>& placed,
+                 const std::vector<std::vector<cv::Point>>& areas,
+                 double factor,
+                 JOIN join) {
     for (std::size_t i = 0; i < placed.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
-            if (touch(placed[i].region, placed[j].region, options.touch)) joinIfOnePlane(i, j);
-    for (const auto& pixels : stable) {
+            if (touch(placed[i].region, placed[j].region, factor)) join(i, j);
+    for (const auto& pixels : areas) {
         const auto members = inside(pixels, placed);
-        for (std::size_t k = 1; k < members.size(); ++k) joinIfOnePlane(members[0], members[k]);
+        for (std::size_t k = 1; k < members.size(); ++k) join(members[0], members[k]);
     }
-    std::vector<std::vector<const TPlaced*>> members(placed.size());
-    for (std::size_t i = 0; i < placed.size(); ++i) members[groups.find(i)].push_back(&placed[i]);
+}
+
+using TGroup = std::vector<const TPlaced*>;
+
+/// Groups of regions on one plane each, in the order of `placed`; those split are counted.
+std::vector<TGroup> grouped(const std::vector<TPlaced>& placed,
+                            const std::vector<std::vector<cv::Point>>& areas,
+                            const std::vector<CWallView>& walls,
+                            const TSelectionOptions& options,
+                            TSelection& counts) {
+    CGroups whole(placed.size()), onPlane(placed.size());
+    forEachJoin(placed, areas, options.touch, [&](std::size_t i, std::size_t j) {
+        whole.join(i, j);
+        const std::size_t a = placed[i].wall, b = placed[j].wall;
+        if (a == b || samePlane(walls[a], walls[b], options.samePlane)) onPlane.join(i, j);
+    });
+    std::vector<TGroup> members(placed.size());
+    std::vector<std::size_t> parts(placed.size());
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+        members[onPlane.find(i)].push_back(&placed[i]);
+        if (onPlane.find(i) == i && ++parts[whole.find(i)] == 2) ++counts.split;
+    }
     members.erase(std::remove_if(members.begin(), members.end(),
                                  [](const auto& group) { return group.empty(); }),
                   members.end());
     return members;
 }
 
+double areaOf(const appearance::TWallRectangle& r) { return (r.u1 - r.u0) * (r.v1 - r.v0); }
+
 bool ranksBefore(const TEntity& a, const TEntity& b) {
-    return std::make_tuple(b.regions.size(), b.saliency, a.regions[0].x, a.regions[0].y) <
-           std::make_tuple(a.regions.size(), a.saliency, b.regions[0].x, b.regions[0].y);
+    return std::make_tuple(b.regions.size(), b.saliency, areaOf(b.box), a.regions[0].x,
+                           a.regions[0].y) < std::make_tuple(a.regions.size(), a.saliency,
+                                                             areaOf(a.box), b.regions[0].x,
+                                                             b.regions[0].y);
 }
 
 }  // namespace
 
 void TSelectionOptions::visit(config::COptionVisitor& v) {
-    v.number("y_min", yMin, config::atLeast(0), "least saliency Y of a region [nat]");
-    v.integer("min_regions", minRegions, config::between(1, 1000),
-              "clustered regions of an entity");
+    v.choice("detector", detector,
+             {{"scale-saliency", EDetector::scaleSaliency},
+              {"mser", EDetector::mser},
+              {"both", EDetector::both},
+              {"quad", EDetector::quad}},
+             "salient regions, stable ones, salient ones joined by stable ones, or contours");
+    v.number("y_min", yMin, config::atLeast(0), "least saliency Y of a salient region [nat]");
+    v.integer("min_regions", minRegions, config::between(1, 1000), "regions of an entity");
     v.number("touch", touch, config::between(0, 100),
              "regions touch if nearer than this times the sum of their scales");
     v.integer("max_entities", maxEntities, config::between(1, 100),
-              "entities taken from a picture");
+              "landmarks taken from a picture");
+    v.integer("max_tries", maxTries, config::between(1, 100),
+              "entities looked at until there are so many, those with most regions first");
     v.number("lowest_m", lowest, config::between(-10, 10),
              "lowest place of a region above the floor");
     v.number("highest_m", highest, config::between(-10, 100), "highest place");
@@ -193,23 +222,17 @@ std::size_t wallOf(const mrpt::math::TPoint2D& pixel,
     return best;
 }
 
-TSelection CEntitySelector::select(const std::vector<TSalientRegion>& regions,
-                                   const std::vector<std::vector<cv::Point>>& stable,
+TSelection CEntitySelector::select(const TDetections& found,
                                    const std::vector<CWallView>& walls) const {
     TSelection result;
-    const auto placed = place(regions, walls, m_options, result);
-    for (const auto& group : grouped(placed, stable, walls, m_options)) {
+    const auto placed = place(found.regions, walls, m_options, result);
+    for (const auto& group : grouped(placed, found.areas, walls, m_options, result)) {
         if (group.size() < static_cast<std::size_t>(m_options.minRegions))
             ++result.tooFewRegions;
         else
             result.entities.push_back(entityOf(group, walls));
     }
     std::sort(result.entities.begin(), result.entities.end(), ranksBefore);
-    const auto limit = static_cast<std::size_t>(m_options.maxEntities);
-    if (result.entities.size() > limit) {
-        result.outnumbered = result.entities.size() - limit;
-        result.entities.resize(limit);
-    }
     return result;
 }
 

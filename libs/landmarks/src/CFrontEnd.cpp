@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 #include "warpWall.h"
@@ -37,10 +38,51 @@ bool partlyHidden(const TWallRectangle& r,
     return false;
 }
 
+bool isFinite(const mrpt::poses::CPose3D& T) {
+    return std::isfinite(T.x() + T.y() + T.z() + T.yaw() + T.pitch() + T.roll());
+}
+
+/// The walls as the picture shows them, without those that are no number.
+std::vector<CWallView> wallViews(const TView& view, TFrontEndResult& result) {
+    std::vector<CWallView> walls;
+    for (const auto& line : view.walls)
+        if (std::isfinite(line.rho + line.alpha + line.from.x + line.from.y + line.to.x +
+                          line.to.y))
+            walls.emplace_back(view.camera, view.T_r_c, line);
+        else
+            ++result.refused["wall that is no line"];
+    return walls;
+}
+
+void addCounts(const TSelection& selection, TFrontEndResult& result) {
+    const auto add = [&](const char* reason, std::size_t count) {
+        if (count > 0) result.refused[reason] += count;
+    };
+    add("region without place or size", selection.notFinite);
+    add("region on no wall", selection.onNoWall);
+    add("region too low or too high", selection.outOfHeight);
+    add("too few regions", selection.tooFewRegions);
+    result.split += selection.split;
+}
+
+/// True if most regions of the entity lie in one of the patches.
+bool isPartOf(const TEntity& entity, const std::vector<TPatch>& patches) {
+    return std::any_of(patches.begin(), patches.end(), [&](const TPatch& patch) {
+        std::vector<cv::Point2f> quad;
+        for (const auto& p : patch.quad)
+            quad.emplace_back(static_cast<float>(p.x), static_cast<float>(p.y));
+        const auto in =
+            std::count_if(entity.regions.begin(), entity.regions.end(), [&](const auto& region) {
+                const cv::Point2f at(static_cast<float>(region.x), static_cast<float>(region.y));
+                return cv::pointPolygonTest(quad, at, false) >= 0;
+            });
+        return 2 * static_cast<std::size_t>(in) > entity.regions.size();
+    });
+}
+
 }  // namespace
 
 void TFrontEndOptions::visit(config::COptionVisitor& v) {
-    v.flag("join_by_mser", joinByMser, "regions inside one maximally stable region are one entity");
     v.integer("min_keypoints", minKeypoints, config::between(0, 10000),
               "patches with fewer are refused; half of them do beside as many regions");
     v.number("min_size_m", minSize, config::moreThan(0), "smallest width and height of an entity");
@@ -57,9 +99,7 @@ void TFrontEndOptions::validate() const {
 
 CFrontEnd::CFrontEnd(const TSeeingOptions& options)
     : m_options(options.frontEnd),
-      m_saliency(options.saliency),
-      m_clusterer(saliency::createClusterer(options.clustering)),
-      m_stable(options.mser),
+      m_detector(options),
       m_selector(options.selection),
       m_border(options.border),
       m_rectifier(options.rectification),
@@ -73,23 +113,28 @@ TFrontEndResult CFrontEnd::process(const TView& view) const {
     if (view.grey.type() != CV_8UC1)
         throw std::invalid_argument("front end: the picture is not 8-bit grey");
     TFrontEndResult result;
-    std::vector<CWallView> walls;
-    for (const auto& line : view.walls) walls.emplace_back(view.camera, view.T_r_c, line);
-
-    const auto peaks = m_saliency.detect(view.grey, {m_selector.options().yMin});
-    const auto regions = m_clusterer->cluster(peaks).regions;
-    std::vector<std::vector<cv::Point>> stable;
-    if (m_options.joinByMser && regions.size() > 1)
-        for (auto& region : m_stable.detect(view.grey)) stable.push_back(std::move(region.pixels));
-
-    const TSelection selection = m_selector.select(regions, stable, walls);
-    if (regions.empty()) ++result.refused["picture without salient region"];
-    result.refused["region on no wall"] += selection.onNoWall;
-    result.refused["too few regions"] += selection.tooFewRegions;
-    result.refused["outnumbered"] += selection.outnumbered;
-    for (const auto& entity : selection.entities)
-        if (auto patch = landmarkOf(entity, walls, view, result))
-            result.landmarks.push_back(std::move(*patch));
+    if (!isFinite(view.T_r_c)) {
+        ++result.refused["picture from an unknown pose"];
+        return result;
+    }
+    const TDetections found = m_detector.detect(view.grey);
+    if (found.regions.empty()) ++result.refused["picture without region"];
+    const auto walls = wallViews(view, result);
+    const TSelection selection = m_selector.select(found, walls);
+    addCounts(selection, result);
+    const auto wanted = static_cast<std::size_t>(m_selector.options().maxEntities);
+    int tries = m_selector.options().maxTries;
+    for (const auto& entity : selection.entities) {
+        if (result.landmarks.size() >= wanted || tries <= 0) {
+            ++result.refused["outnumbered"];
+        } else if (isPartOf(entity, result.landmarks)) {
+            ++result.refused["part of another entity"];
+        } else {
+            --tries;
+            if (auto patch = landmarkOf(entity, walls, view, result))
+                result.landmarks.push_back(std::move(*patch));
+        }
+    }
     return result;
 }
 

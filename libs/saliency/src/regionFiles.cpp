@@ -141,4 +141,14 @@ void writeRegionsCsv(const std::string& file, const std::vector<TStableRegion>& 
     close(out, file);
 }
 
+void writeQuadsCsv(const std::string& file, const std::vector<TQuad>& quads) {
+    auto out = create(file);
+    out << "x0_px,y0_px,x1_px,y1_px,x2_px,y2_px,x3_px,y3_px,area_px2\n" << std::setprecision(10);
+    for (const auto& quad : quads) {
+        for (const auto& corner : quad.corners) out << corner.x << "," << corner.y << ",";
+        out << quad.area << "\n";
+    }
+    close(out, file);
+}
+
 }  // namespace salma::saliency

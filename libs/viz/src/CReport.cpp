@@ -133,7 +133,7 @@ std::string CReport::html(const TReportFigures& figures) const {
                    "What was measured minus what the filter expected. A consistent filter keeps "
                    "about 95 % of them inside the bounds. Lines break where nothing known was "
                    "seen.");
-    page += landmarkTable();
+    page += landmarkTable() + refusals();
     page +=
         "<h2>Options</h2>\n<details><summary>The configuration that took effect</summary><pre>" +
         escapeHtml(record.options) + "</pre></details>\n";
@@ -167,6 +167,20 @@ std::string CReport::notices() const {
     for (const auto& notice : m_input.record.notices)
         text += "<li>" + escapeHtml(notice) + "</li>\n";
     return text + "</ul></div>\n";
+}
+
+std::string CReport::refusals() const {
+    const auto& record = m_input.record;
+    if (record.refused.empty() && record.splitGroups == 0) return "";
+    std::string rows;
+    for (const auto& [reason, count] : record.refused)
+        rows +=
+            "<tr><td>" + escapeHtml(reason) + "</td><td>" + std::to_string(count) + "</td></tr>\n";
+    return "<h2>Not taken from pictures</h2>\n<table><thead><tr><th>reason</th>"
+           "<th>count</th></tr></thead><tbody>\n" +
+           rows +
+           "</tbody></table>\n<p>Groups of regions that lay on several walls and were split: " +
+           std::to_string(record.splitGroups) + ".</p>\n";
 }
 
 std::string CReport::accuracy() const {

@@ -109,8 +109,11 @@ void writeSummary(const TRunRecord& record, const std::string& file) {
     json["deferred"] = counts.deferred;
     json["clutter"] = counts.clutter;
     json["relocated"] = counts.relocated;
+    json["provisional"] = counts.provisional;
     json["pictures"] = record.pictures;
     json["pictures_without_landmark"] = record.picturesWithoutLandmark;
+    json["refused"] = record.refused;
+    json["split_groups"] = record.splitGroups;
     json["seconds"] = record.seconds;
     json["seed"] = record.seed;
     json["options"] = optionsOf(record.options);

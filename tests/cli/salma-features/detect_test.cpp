@@ -188,6 +188,51 @@ TEST(SalmaFeaturesDetect, WritesStableRegionsWithTheirPolarity) {
     EXPECT_TRUE(fs::exists(folder / "out/plate.overlay.png"));
 }
 
+TEST(SalmaFeaturesDetect, WritesBothKindsOfRegionsBesideEachOther) {
+    const CTemporaryFolder folder;
+    const std::string file = posterFile(folder);
+    for (const std::string detector : {"both", "scale-saliency", "mser"}) {
+        const auto result =
+            detect({file, "--out", (folder / detector).string(), "--detector", detector});
+        ASSERT_EQ(result.exitCode, 0) << result.output;
+    }
+    for (const std::string name : {"regions.csv", "vgg", "overlay.png"}) {
+        EXPECT_EQ(readFile(folder / ("both/poster." + name)),
+                  readFile(folder / ("scale-saliency/poster." + name)));
+        EXPECT_EQ(readFile(folder / ("both/poster.stable." + name)),
+                  readFile(folder / ("mser/poster." + name)));
+    }
+}
+
+TEST(SalmaFeaturesDetect, WritesTheCornersOfQuadrilaterals) {
+    const CTemporaryFolder folder;
+    cv::Mat picture(200, 200, CV_8UC1, cv::Scalar(220));
+    picture(cv::Rect(40, 60, 100, 70)).setTo(20);
+    const std::string file = (folder / "plate.png").string();
+    cv::imwrite(file, picture);
+    const auto result = detect({file, "--out", (folder / "out").string(), "--detector", "quad"});
+    ASSERT_EQ(result.exitCode, 0) << result.output;
+    EXPECT_EQ(result.output, "plate: 200x200, 1 quadrilaterals\n");
+    const auto lines = linesOf(folder / "out/plate.quads.csv");
+    ASSERT_EQ(lines.size(), 2u);
+    EXPECT_EQ(lines[0], "x0_px,y0_px,x1_px,y1_px,x2_px,y2_px,x3_px,y3_px,area_px2");
+    double x0 = 0, y0 = 0, x1 = 0, y1 = 0, x2 = 0, y2 = 0, x3 = 0, y3 = 0, area = 0;
+    ASSERT_EQ(std::sscanf(lines[1].c_str(), "%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", &x0, &y0, &x1,
+                          &y1, &x2, &y2, &x3, &y3, &area),
+              9);
+    for (const auto& [found, expected] : {std::pair{x0, 40.0},
+                                          {y0, 60.0},
+                                          {x1, 140.0},
+                                          {y1, 60.0},
+                                          {x2, 140.0},
+                                          {y2, 130.0},
+                                          {x3, 40.0},
+                                          {y3, 130.0}})
+        EXPECT_NEAR(found, expected, 4);
+    EXPECT_NEAR(area, 7000, 700);
+    EXPECT_TRUE(fs::exists(folder / "out/plate.overlay.png"));
+}
+
 TEST(SalmaFeaturesDetect, ReadsItsSectionsOfAWholeConfigFile) {
     const CTemporaryFolder folder;
     const std::string file = posterFile(folder);
@@ -272,12 +317,12 @@ TEST(SalmaFeaturesDetect, RefusesMisuseWithCodeTwo) {
     expectUsageError(detect({}), "IMAGE is required");
     expectUsageError(detect({"a.png"}), "--out is required");
     expectUsageError(detect({"a.png", "--out", "x", "--colour"}), "--colour");
-    for (const std::string detector : {"both", "quad", "sift"})
-        expectUsageError(detect({"a.png", "--out", "x", "--detector", detector}), detector);
+    expectUsageError(detect({"a.png", "--out", "x", "--detector", "sift"}), "sift");
     expectUsageError(detect({"a.png", "--out", "x", "--y-min", "-1"}), "--y-min");
     expectUsageError(detect({"a.png", "--out", "x", "--y-min", "nan"}), "--y-min");
     expectUsageError(detect({"a.png", "--out", "x", "--detector", "mser", "--peaks"}), "peaks");
     expectUsageError(detect({"a.png", "--out", "x", "--detector", "mser", "--affine"}), "affine");
+    expectUsageError(detect({"a.png", "--out", "x", "--detector", "quad", "--peaks"}), "peaks");
 }
 
 TEST(SalmaFeaturesDetect, BeginsItsHelpWithExamples) {

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 #include <salma/landmarks/CFrontEnd.h>
 
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "TestScene.h"
@@ -60,7 +62,7 @@ TEST(CFrontEnd, FindsThePaintingFromKadirsClustersToo) {
 TEST(CFrontEnd, StoresNothingOfABareWallAndSaysSo) {
     const auto result = CFrontEnd().process(view(0, 0, 5, false));
     EXPECT_TRUE(result.landmarks.empty());
-    EXPECT_EQ(result.refused.at("picture without salient region"), 1u);
+    EXPECT_EQ(result.refused.at("picture without region"), 1u);
 }
 
 TEST(CFrontEnd, StoresNothingWithoutAWall) {
@@ -92,6 +94,134 @@ TEST(CFrontEnd, RefusesAPaintingThatANearerWallHides) {
     const auto result = CFrontEnd().process(v);
     EXPECT_TRUE(result.landmarks.empty());
     EXPECT_EQ(result.refused.at("partly hidden by a nearer wall"), 1u);
+}
+
+TEST(CFrontEnd, FindsThePaintingWithEachDetector) {
+    for (const auto detector :
+         {EDetector::scaleSaliency, EDetector::mser, EDetector::both, EDetector::quad}) {
+        TSeeingOptions options;
+        options.selection.detector = detector;
+        const auto result = CFrontEnd(options).process(view(0.3, 0.3, 5));
+        ASSERT_EQ(result.landmarks.size(), 1u) << int(detector);
+        EXPECT_NEAR(result.landmarks[0].width, 0.5, 0.05) << int(detector);
+        EXPECT_NEAR(result.landmarks[0].height, 0.4, 0.05) << int(detector);
+        EXPECT_NEAR(result.landmarks[0].pose.mean.z(), 1.2, 0.03) << int(detector);
+    }
+}
+
+TEST(CFrontEnd, FindsNothingWithAnyDetectorInAPictureOfOneColourAndSaysSo) {
+    for (const auto detector :
+         {EDetector::scaleSaliency, EDetector::mser, EDetector::both, EDetector::quad}) {
+        TSeeingOptions options;
+        options.selection.detector = detector;
+        TView v = view(0, 0, 5);
+        v.grey.setTo(120);
+        const auto result = CFrontEnd(options).process(v);
+        EXPECT_TRUE(result.landmarks.empty());
+        EXPECT_EQ(result.refused.at("picture without region"), 1u);
+    }
+}
+
+TEST(CFrontEnd, StoresNothingOfAWallThatIsSeenAtAGrazingAngle) {
+    // The robot looks along a wall 0.3 m to its left; the painting hangs 2 m ahead, at 81 deg.
+    TView v = view(0, 0, 5);
+    v.walls = {test::wall(0.3, M_PI_2)};
+    v.walls[0].from = {6, 0.3};
+    v.walls[0].to = {-1, 0.3};
+    v.T_r_c = test::cameraPose(0.2);
+    const appearance::CWallView wall(v.camera, v.T_r_c, v.walls[0]);
+    v.grey = test::pictureOf(wall, cv::Rect2d(1.6, 1.0, 0.8, 0.5), 5);
+    const auto result = CFrontEnd().process(v);
+    EXPECT_TRUE(result.landmarks.empty());
+    EXPECT_FALSE(result.refused.empty());
+}
+
+TEST(CFrontEnd, RefusesAPictureWhosePoseIsNoNumber) {
+    const double nan = std::nan("");
+    for (const auto& pose :
+         {mrpt::poses::CPose3D(nan, 0, 1.2, 0, 0, 0), mrpt::poses::CPose3D(0, 0, 1.2, nan, 0, 0),
+          mrpt::poses::CPose3D(0, std::numeric_limits<double>::infinity(), 1.2, 0, 0, 0)}) {
+        TView v = view(0, 0, 5);
+        v.T_r_c = pose;
+        const auto result = CFrontEnd().process(v);
+        EXPECT_TRUE(result.landmarks.empty());
+        EXPECT_EQ(result.refused.at("picture from an unknown pose"), 1u);
+    }
+}
+
+TEST(CFrontEnd, RefusesWallsThatAreNoNumbersAndUsesTheOthers) {
+    TView v = view(0, 0, 5);
+    auto bad = v.walls[0];
+    bad.rho = std::nan("");
+    v.walls.push_back(bad);
+    bad = v.walls[0];
+    bad.to.x = std::numeric_limits<double>::infinity();
+    v.walls.insert(v.walls.begin(), bad);
+    const auto result = CFrontEnd().process(v);
+    EXPECT_EQ(result.landmarks.size(), 1u);
+    EXPECT_EQ(result.refused.at("wall that is no line"), 2u);
+    v.walls = {test::wall(1.8, 0)};
+    v.walls[0].covariance(0, 1) = std::nan("");
+    const auto unsure = CFrontEnd().process(v);
+    EXPECT_TRUE(unsure.landmarks.empty());
+    EXPECT_EQ(unsure.refused.at("bad wall"), 1u);
+}
+
+/// Two paintings, one on each wall of a nook, 4 cm from its edge.
+TView nook() {
+    TView v = view(0, 0, 5);
+    const double a = M_PI / 4;
+    v.walls = {test::wall(1.5, a), test::wall(1.5, -a)};
+    const mrpt::math::TPoint2D edge(1.5 / std::cos(a), 0);
+    v.walls[0].from = edge;
+    v.walls[1].to = edge;
+    const appearance::CWallView left(v.camera, v.T_r_c, v.walls[0]);
+    const appearance::CWallView right(v.camera, v.T_r_c, v.walls[1]);
+    const double u = left.toWall({319.5, 239.5})->x, w = right.toWall({319.5, 239.5})->x;
+    const cv::Mat one = test::pictureOf(left, cv::Rect2d(u - 0.44, 1.0, 0.4, 0.4), 5);
+    const cv::Mat two = test::pictureOf(right, cv::Rect2d(w + 0.04, 1.0, 0.4, 0.4), 7);
+    v.grey = one.clone();
+    two.colRange(320, 640).copyTo(v.grey.colRange(320, 640));
+    return v;
+}
+
+TEST(CFrontEnd, SplitsAnEntityOnTwoPlanesAndPutsEachPartOnItsOwn) {
+    TSeeingOptions options;
+    options.selection.maxEntities = 2;
+    options.selection.maxTries = 4;
+    options.selection.touch = 6;  // the regions of both paintings make one group
+    const auto result = CFrontEnd(options).process(nook());
+    EXPECT_EQ(result.split, 1u);
+    for (const auto& patch : result.landmarks) {
+        EXPECT_NEAR(patch.width, 0.4, 0.05);
+        EXPECT_NEAR(patch.height, 0.4, 0.05);
+        // yaw of a patch is its wall's alpha less 90 deg
+        EXPECT_NEAR(std::abs(std::abs(patch.pose.mean.yaw() + M_PI_2) - M_PI / 4), 0, 1e-6);
+    }
+    EXPECT_FALSE(result.landmarks.empty());
+}
+
+TEST(CFrontEnd, TriesTheNextEntityIfTheFirstHasNoBorder) {
+    // Two paintings; the one that wins then touches a dark post on its left side.
+    TView v = view(0, 0, 5);
+    const appearance::CWallView wall(v.camera, v.T_r_c, v.walls[0]);
+    v.grey = test::pictureOf(wall, cv::Rect2d(-0.5, 0.95, 0.4, 0.4), 6);
+    test::pictureOf(wall, cv::Rect2d(0.15, 0.95, 0.4, 0.4), 9)
+        .colRange(320, 640)
+        .copyTo(v.grey.colRange(320, 640));
+    const auto whole = CFrontEnd().process(v);
+    ASSERT_EQ(whole.landmarks.size(), 1u);
+    const double side = whole.landmarks[0].quad[0].x;
+    v.grey.colRange(static_cast<int>(side) - 60, static_cast<int>(side)).setTo(90);
+    const auto one = CFrontEnd().process(v);
+    EXPECT_TRUE(one.landmarks.empty());
+    EXPECT_EQ(one.refused.count("no border"), 1u);
+    TSeeingOptions options;
+    options.selection.maxTries = 5;
+    const auto more = CFrontEnd(options).process(v);
+    ASSERT_EQ(more.landmarks.size(), 1u);
+    EXPECT_NEAR(more.landmarks[0].width, 0.4, 0.03);
+    EXPECT_GT(std::abs(more.landmarks[0].quad[0].x - side), 100) << "the other painting";
 }
 
 TEST(CFrontEnd, RefusesPicturesOfAnotherTypeOrSize) {

@@ -12,13 +12,18 @@
 
 namespace salma::landmarks {
 
+/// What entities are made of; see CEntityDetector.
+enum class EDetector { scaleSaliency, mser, both, quad };
+
 /// Section [selection] of config.ini.
 struct TSelectionOptions : public config::TStrictOptions<TSelectionOptions> {
-    double yMin{1.9};     //!< Regions less salient than this are not looked at [nat].
-    int minRegions{2};    //!< Clustered regions that make an entity.
+    EDetector detector{EDetector::both};
+    double yMin{1.9};     //!< Salient regions below this are not looked at [nat].
+    int minRegions{2};    //!< Regions that make an entity.
     double touch{2.0};    //!< Two regions touch if their centres are nearer than this times the sum
                           //!< of their scales.
-    int maxEntities{1};   //!< Entities taken from one picture.
+    int maxEntities{1};   //!< Landmarks taken from one picture.
+    int maxTries{1};      //!< Entities looked at until there are so many.
     double lowest{0.3};   //!< Regions whose centre lies lower above the floor are refused [m].
     double highest{2.6};  //!< And higher ones [m].
     double wallMargin{0.1};  //!< How far beyond the end of a laser line the wall is believed [m].
@@ -27,38 +32,43 @@ struct TSelectionOptions : public config::TStrictOptions<TSelectionOptions> {
     void visit(config::COptionVisitor& v);
 };
 
+/// What a detector found in a picture, before walls are known.
+struct TDetections {
+    std::vector<observations::TSalientRegion> regions;  //!< [px]; Y = 0 if the detector has none.
+    std::vector<std::vector<cv::Point>> areas;  //!< Regions inside one of them belong together.
+};
+
 /// A salient thing on a wall, before its border is known.
 struct TEntity {
     std::size_t wall{0};                                //!< Index into the walls.
     appearance::TWallRectangle box;                     //!< Around the regions, wall metres.
-    std::vector<observations::TSalientRegion> regions;  //!< Its clustered regions [px].
+    std::vector<observations::TSalientRegion> regions;  //!< [px]
     double saliency{0};                                 //!< Sum of their Y.
 };
 
 /// Entities, and what became of the other regions.
 struct TSelection {
-    std::vector<TEntity> entities;  //!< The one with most regions first; at most `max_entities`.
-    std::size_t belowThreshold{0};  //!< Regions with Y < y_min.
-    std::size_t onNoWall{0};  //!< Regions where the laser sees no wall, or too low, or too high.
-    std::size_t tooFewRegions{0};  //!< Groups smaller than `min_regions`.
-    std::size_t outnumbered{0};    //!< Groups beyond `max_entities`.
+    std::vector<TEntity> entities;  //!< The one with most regions first.
+    std::size_t notFinite{0};       //!< Regions without a place in the picture or without size.
+    std::size_t onNoWall{0};        //!< Regions where the laser sees no wall.
+    std::size_t outOfHeight{0};     //!< Regions too low or too high on their wall.
+    std::size_t tooFewRegions{0};   //!< Groups smaller than `min_regions`.
+    std::size_t split{0};           //!< Groups that lay on several planes and were split.
 };
 
-/** Joins salient regions to entities on walls and takes the one with most regions.
+/** Joins regions to entities on walls and ranks them by the number of regions.
  *
- * Regions are joined if their discs touch or if they lie in one stable region, and only if they lie
- * on one laser plane. Ties are decided by the sum of Y, then by place.
+ * Regions are joined if their discs touch or if they lie in one area; a group that lies on several
+ * laser planes is split, so that every entity lies on one. Ties are decided by the sum of Y, then
+ * by the size on the wall, then by place.
  * Source: K.-L. Ho, transfer report, Oxford 2004, section 4.1.2. */
 class CEntitySelector {
  public:
     /// \throw std::invalid_argument if the options are out of range.
     explicit CEntitySelector(const TSelectionOptions& options = {});
 
-    /** \param regions Clustered salient regions of one picture [px].
-     * \param stable Pixels of each maximally stable region of the picture [px]; may be empty.
-     * \param walls The walls that the laser sees, each with this picture. */
-    TSelection select(const std::vector<observations::TSalientRegion>& regions,
-                      const std::vector<std::vector<cv::Point>>& stable,
+    /// \param walls The walls that the laser sees, each with this picture.
+    TSelection select(const TDetections& found,
                       const std::vector<appearance::CWallView>& walls) const;
 
     const TSelectionOptions& options() const { return m_options; }

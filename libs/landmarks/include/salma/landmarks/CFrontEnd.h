@@ -6,15 +6,12 @@
 #include <salma/appearance/CRegionDescriptor.h>
 #include <salma/appearance/CTexture.h>
 #include <salma/landmarks/CBorderFinder.h>
+#include <salma/landmarks/CEntityDetector.h>
 #include <salma/landmarks/CEntitySelector.h>
 #include <salma/laser/TLine.h>
 #include <salma/observations/CObservationSalientLandmarks.h>
-#include <salma/saliency/CClusterer.h>
-#include <salma/saliency/CScaleSaliency.h>
-#include <salma/saliency/CStableRegions.h>
 
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,7 +20,6 @@ namespace salma::landmarks {
 
 /// Section [front_end] of config.ini.
 struct TFrontEndOptions : public config::TStrictOptions<TFrontEndOptions> {
-    bool joinByMser{true};    //!< Regions inside one maximally stable region make one entity.
     int minKeypoints{12};     //!< Patches need as many: appearance::saysEnough().
     double minSize{0.2};      //!< Smallest width and height of an entity [m].
     double maxSize{2.5};      //!< Largest [m].
@@ -36,12 +32,8 @@ struct TFrontEndOptions : public config::TStrictOptions<TFrontEndOptions> {
 };
 
 /// The options of all that a picture passes on its way to landmarks, one ini section each.
-struct TSeeingOptions {
+struct TSeeingOptions : public TDetectionOptions {
     TFrontEndOptions frontEnd;
-    saliency::TScaleSaliencyOptions saliency;
-    saliency::TClusteringOptions clustering;
-    saliency::TStableRegionsOptions mser;
-    TSelectionOptions selection;
     TBorderOptions border;
     appearance::TRectificationOptions rectification;
     appearance::TSecondLookOptions secondLook;
@@ -60,8 +52,9 @@ struct TView {
 /// What was seen in a picture.
 struct TFrontEndResult {
     std::vector<observations::TPatch> landmarks;
-    /// Why entities and regions made no landmark, by reason, e.g. "no border".
+    /// Why regions, entities and whole pictures made no landmark, by reason, e.g. "no border".
     std::map<std::string, std::size_t> refused;
+    std::size_t split{0};  //!< Groups of regions that lay on several planes and were split.
 };
 
 /** A picture and the walls around it to salient landmarks: the one way for simulator, file and
@@ -87,9 +80,7 @@ class CFrontEnd {
                                                        const cv::Mat& grey) const;
 
     TFrontEndOptions m_options;
-    saliency::CScaleSaliency m_saliency;
-    std::shared_ptr<const saliency::CClusterer> m_clusterer;
-    saliency::CStableRegions m_stable;
+    CEntityDetector m_detector;
     CEntitySelector m_selector;
     CBorderFinder m_border;
     appearance::CRectifier m_rectifier;

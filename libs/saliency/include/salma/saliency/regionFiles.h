@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <salma/saliency/CQuadrilaterals.h>
 #include <salma/saliency/CStableRegions.h>
 #include <salma/saliency/TEllipse.h>
 
@@ -35,5 +36,9 @@ void writeRegionsCsv(const std::string& file,
 /** Writes the same columns, the last three of them empty, and `area_px2,mean_grey,polarity` (dark
  * or bright). \throw std::runtime_error if the file cannot be written. */
 void writeRegionsCsv(const std::string& file, const std::vector<TStableRegion>& regions);
+
+/** Writes `x0_px,y0_px` to `x3_px,y3_px`, the corners clockwise from the top left, and `area_px2`.
+ * \throw std::runtime_error if the file cannot be written. */
+void writeQuadsCsv(const std::string& file, const std::vector<TQuad>& quads);
 
 }  // namespace salma::saliency

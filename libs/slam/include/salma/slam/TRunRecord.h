@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -88,7 +89,10 @@ struct TRunRecord {
     std::vector<std::string> notices;
     std::size_t pictures{0};
     std::size_t picturesWithoutLandmark{0};
-    double seconds{0};  //!< Wall time of the run.
+    /// Why regions, entities and pictures made no landmark, and how often.
+    std::map<std::string, std::size_t> refused;
+    std::size_t splitGroups{0};  //!< Groups of regions that lay on several planes.
+    double seconds{0};           //!< Wall time of the run.
     std::uint32_t seed{0};
     std::string logFile;
     std::string options;  //!< Effective config.ini.

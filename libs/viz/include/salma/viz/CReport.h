@@ -28,6 +28,7 @@ class CReport {
     std::string accuracy() const;
     std::string landmarkTable() const;
     std::string notices() const;
+    std::string refusals() const;
 
     TReportInput m_input;
 };
