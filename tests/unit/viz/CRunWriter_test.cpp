@@ -31,7 +31,7 @@ TEST(CRunWriter, WritesEachTableAsTheDesignNamesIt) {
     landmark.firstTime = 1;
     landmark.lastTime = 2;
     record.landmarks = {landmark};
-    record.associations = {{1.5, 0, ELandmarkKind::salient, 2, M_PI / 2, 10.5, 20,
+    record.associations = {{1.5, 0, ELandmarkKind::salient, 2, M_PI / 2, 10.5, 20, std::nan(""),
                             EDecision::created, 3, std::nan(""), std::nan(""), 0}};
     record.candidates = {{1.5, 1, 3, 0.5, std::nan(""), true}};
     record.innovations = {{1.5, "bearing_deg", -0.125, 2}};
@@ -103,7 +103,9 @@ TEST(CRunWriter, WritesTablesThatReadBackToTheRecord) {
 }
 
 TEST(CRunWriter, SummarisesTheRunAsJson) {
-    const auto run = test::hallwayRun();
+    auto run = test::hallwayRun();
+    run.record.refused = {{"no border", 4}, {"grazing", 2}};
+    run.record.splitGroups = 3;
     const test::CTemporaryFolder folder;
     CRunWriter(folder.path()).writeTables(run.record);
     const auto json = nlohmann::json::parse(test::readFile(folder / "summary.json"));
@@ -116,6 +118,10 @@ TEST(CRunWriter, SummarisesTheRunAsJson) {
     EXPECT_EQ(json["relocated"], 0);
     EXPECT_EQ(json["pictures"], 300);
     EXPECT_EQ(json["pictures_without_landmark"], 120);
+    EXPECT_EQ(json["refused"]["no border"], 4);
+    EXPECT_EQ(json["refused"].size(), 2U);
+    EXPECT_EQ(json["split_groups"], 3);
+    EXPECT_EQ(json["provisional"], 0);
     EXPECT_EQ(json["seconds"], 42.5);
     EXPECT_EQ(json["seed"], 7);
     EXPECT_EQ(json["options"]["association"]["method"], "saliency");

@@ -90,8 +90,8 @@ void addAssociations(slam::TRunRecord& record, double time, double s) {
     row.logRatio = known ? 12.25 : nan;
     row.candidates = known ? 1 : 0;
     record.associations.push_back(row);
-    record.associations.push_back(
-        {time, 1, ELandmarkKind::corner, 3, -0.5, nan, nan, EDecision::deferred, -1, nan, nan, 2});
+    record.associations.push_back({time, 1, ELandmarkKind::corner, 3, -0.5, nan, nan, nan,
+                                   EDecision::deferred, -1, nan, nan, 2});
     record.candidates.push_back({time, 1, 4, 2.5, nan, false});
 }
 
