@@ -2,7 +2,7 @@
 find_package(Eigen3 REQUIRED)
 find_package(Boost 1.74 REQUIRED COMPONENTS iostreams)
 find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgproc imgcodecs features2d calib3d)
-set(SALMA_MRPT_MODULES config core math io serialization rtti system poses img obs opengl maps slam comms)
+set(SALMA_MRPT_MODULES config core math io serialization rtti system poses img obs opengl maps slam comms hwdrivers)
 foreach(module ${SALMA_MRPT_MODULES})
   find_package(mrpt-${module} 2.5.8 REQUIRED)
 endforeach()

@@ -2,6 +2,8 @@
 #include <mrpt/core/Clock.h>
 #include <salma/observations/CPanTiltHistory.h>
 
+#include <algorithm>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -36,6 +38,12 @@ std::optional<mrpt::poses::CPose3D> CPanTiltHistory::cameraPose(double time, dou
     // Not the short way: a head cannot turn past its back, so its angles do not wrap.
     return a.cameraPose(a.pan + place->part * (b.pan - a.pan),
                         a.tilt + place->part * (b.tilt - a.tilt));
+}
+
+void CPanTiltHistory::forgetBefore(double time) {
+    const auto later = std::find_if(m_states.begin(), m_states.end(),
+                                    [time](const auto& state) { return timeOf(*state) > time; });
+    if (later != m_states.begin()) m_states.erase(m_states.begin(), std::prev(later));
 }
 
 }  // namespace salma::observations

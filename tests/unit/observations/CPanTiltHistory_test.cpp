@@ -55,3 +55,18 @@ TEST(CPanTiltHistory, RefusesDecreasingStampsAndNothing) {
     EXPECT_NEAR(history.cameraPose(100, 0)->yaw(), 0.5, 1e-12);
     EXPECT_THROW(history.add(stateAt(99, 0, 0)), std::invalid_argument);
 }
+
+TEST(CPanTiltHistory, ForgetsWhatIsOldButKeepsTheTimeItself) {
+    CPanTiltHistory history;
+    history.forgetBefore(100);
+    for (int i = 0; i <= 10; ++i) history.add(stateAt(100 + i, 0.1 * i, 0));
+    history.forgetBefore(99);
+    EXPECT_NEAR(history.cameraPose(100, 0)->yaw(), 0, 1e-9);
+    history.forgetBefore(104.5);
+    EXPECT_FALSE(history.cameraPose(103.9, 0));
+    EXPECT_NEAR(history.cameraPose(104.5, 0)->yaw(), 0.45, 1e-6);
+    EXPECT_NEAR(history.cameraPose(110, 0)->yaw(), 1, 1e-9);
+    history.forgetBefore(200);
+    EXPECT_NEAR(history.cameraPose(110, 0)->yaw(), 1, 1e-9);
+    EXPECT_FALSE(history.cameraPose(109, 0));
+}

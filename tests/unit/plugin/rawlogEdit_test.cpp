@@ -10,27 +10,13 @@
 #include "CTemporaryFolder.h"
 #include "examples.h"
 #include "logs.h"
+#include "stockProgram.h"
 
 using namespace salma;
 using mrpt::poses::CPose2D;
 using test::CTemporaryFolder;
 
-#ifndef SALMA_PRELOAD
-#define SALMA_PRELOAD ""
-#endif
-
 namespace {
-
-/// The words before the stock program: an instrumented plug-in needs its runtime there first.
-/// What the stock program itself never frees is not looked at.
-std::vector<std::string> stockProgram(const std::vector<std::string>& options = {}) {
-    std::vector<std::string> words{"env"};
-    words.insert(words.end(), options.begin(), options.end());
-    if (*SALMA_PRELOAD != '\0')
-        words.insert(words.end(), {"LD_PRELOAD=" SALMA_PRELOAD, "ASAN_OPTIONS=detect_leaks=0"});
-    words.push_back("rawlog-edit");
-    return words;
-}
 
 /// The stock program rawlog-edit of MRPT on a small log that holds records of this project.
 class RawlogEdit : public testing::Test {
@@ -59,7 +45,7 @@ class RawlogEdit : public testing::Test {
     }
 
     static std::string run(const std::vector<std::string>& arguments) {
-        auto command = stockProgram();
+        auto command = test::stockProgram("rawlog-edit");
         command.insert(command.end(), arguments.begin(), arguments.end());
         const auto result = test::runProcess(command);
         EXPECT_EQ(result.exitCode, 0) << result.output;
@@ -138,7 +124,7 @@ TEST_F(RawlogEdit, ExportTxtWritesOneRowPerRecord) {
     observationLog();
     // rawlog-edit forgets the slash behind a folder, so the log must be named without one.
     const std::string here = m_folder.path().string();
-    auto command = stockProgram({"-C", here});
+    auto command = test::stockProgram("rawlog-edit", {"-C", here});
     command.insert(command.end(), {"-p", SALMA_PLUGIN, "-i", "obs.rawlog", "--export-txt"});
     const auto result = test::runProcess(command);
     EXPECT_EQ(result.exitCode, 0) << result.output;

@@ -18,6 +18,9 @@ class CPanTiltHistory {
     /// T_r_c at `time` [s]; ends and gaps as in CPoseHistory::at().
     std::optional<mrpt::poses::CPose3D> cameraPose(double time, double maxSkew) const;
 
+    /// Drops what is older than `time` [s], but for the last such state: `time` itself stays known.
+    void forgetBefore(double time);
+
     bool empty() const { return m_states.empty(); }
 
  private:

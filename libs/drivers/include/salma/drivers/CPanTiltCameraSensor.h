@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/hwdrivers/CGenericSensor.h>
+#include <mrpt/system/COutputLogger.h>
+#include <salma/drivers/TPanTiltCameraOptions.h>
+#include <salma/observations/CPanTiltHistory.h>
+
+#include <memory>
+#include <mutex>
+#include <optional>
+
+namespace salma::drivers {
+
+class CViscaCamera;
+
+/** A pan/tilt camera as a sensor of rawlog-grabber: writes `CObservationPanTilt` at
+ * `process_rate`, and says where the camera was when a picture was taken.
+ *
+ * Records are stamped half way between question and answer. A camera that does not answer when the
+ * program starts is an error; one that is lost later (cable, power) is said once, looked for every
+ * `reconnect_s`, and goes on when it is back: no record stands for the time between.
+ * `cameraPose()` and `stamp()` may be called from any thread. */
+class CPanTiltCameraSensor : public mrpt::system::COutputLogger,
+                             public mrpt::hwdrivers::CGenericSensor {
+    DEFINE_GENERIC_SENSOR(CPanTiltCameraSensor)
+
+ public:
+    CPanTiltCameraSensor();
+    ~CPanTiltCameraSensor() override;
+
+    /// \throw CPortError, CViscaError
+    void initialize() override;
+    /// One record, or an attempt to find the camera again; throws nothing for a lost camera.
+    void doProcess() override;
+
+    /** T_r_c at `time`, from the records of the last ten seconds.
+     * \param maxSkew Longest time [s] beyond the first or last record over which it is held. */
+    std::optional<mrpt::poses::CPose3D> cameraPose(const mrpt::Clock::time_point& time,
+                                                   double maxSkew) const;
+    /// Gives `picture` the pose at its own stamp. False, and unchanged, if that is not known.
+    bool stamp(mrpt::obs::CObservation& picture, double maxSkew) const;
+
+    const TPanTiltCameraOptions& options() const { return m_options; }
+
+ protected:
+    /// \throw std::invalid_argument naming section, key and value
+    void loadConfig_sensorSpecific(const mrpt::config::CConfigFileBase& file,
+                                   const std::string& section) override;
+
+ private:
+    void connect();
+    void reconnect();
+    void record();
+    void remember(const observations::CObservationPanTilt::Ptr& state);
+
+    TPanTiltCameraOptions m_options;
+    std::unique_ptr<CViscaCamera> m_camera;  //!< Empty while it is lost.
+    double m_nextAttempt{0};                 //!< By the steady clock [s].
+    int m_recordsUntilZoom{0};
+    double m_zoom{1};
+    mutable std::mutex m_mutex;  //!< Of m_history.
+    observations::CPanTiltHistory m_history;
+};
+
+}  // namespace salma::drivers

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// MRPT's rawlog-grabber, as it is installed, with the plug-in and an emulated camera.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <mrpt/core/bits_math.h>
+#include <mrpt/obs/CRawlog.h>
+#include <salma/drivers/CViscaCamera.h>
+#include <salma/observations/CObservationPanTilt.h>
+#include <salma/observations/registerClasses.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <future>
+
+#include "CEviD30.h"
+#include "CProcess.h"
+#include "CTemporaryFolder.h"
+#include "stockProgram.h"
+
+using namespace salma;
+using mrpt::RAD2DEG;
+using observations::CObservationPanTilt;
+
+namespace {
+
+class RawlogGrabber : public testing::Test {
+ protected:
+    void SetUp() override {
+        if (std::system("command -v rawlog-grabber >/dev/null") != 0)
+            GTEST_SKIP() << "SKIPPED, rawlog-grabber of package mrpt-apps is not here";
+        ASSERT_EQ(mkfifo((m_folder / "keys").c_str(), 0600), 0);
+        // Open for reading as well: opens at once, and the grabber never sees an end of file,
+        // which it would take for a key.
+        m_keys = open((m_folder / "keys").c_str(), O_RDWR | O_CLOEXEC);
+        ASSERT_GE(m_keys, 0);
+    }
+    void TearDown() override { close(m_keys); }
+
+    std::string port() const { return (m_folder / "camera").string(); }
+
+    void grab(const std::string& cameraSection) {
+        const std::string ini = m_folder.write(
+            "grab.ini", "[global]\nrawlog_prefix = " + (m_folder / "log").string() +
+                            "\nGRABBER_PERIOD_MS = 20\ntime_between_launches = 0\n[HEAD]\ndriver = "
+                            "CPanTiltCameraSensor\nprocess_rate = 50\nsensorLabel = HEAD\n" +
+                            cameraSection);
+        auto command = test::stockProgram("sh");
+        const std::string line =
+            "exec rawlog-grabber -p " SALMA_PLUGIN " " + ini + " < " + (m_folder / "keys").string();
+        command.insert(command.end(), {"-c", line});
+        m_grabber = std::async(std::launch::async, [command] { return test::runProcess(command); });
+    }
+
+    /// Waits until the camera was asked `more` times; false if the grabber ended before.
+    bool waitForQuestions(test::CEmulator& emulator, const test::CEviD30& camera, int more) {
+        const auto asked = [&] {
+            int questions = 0;
+            emulator.locked([&] { questions = camera.inquiries(); });
+            return questions;
+        };
+        const int until = asked() + more;
+        while (asked() < until)
+            if (m_grabber.wait_for(std::chrono::milliseconds(5)) == std::future_status::ready)
+                return false;
+        return true;
+    }
+
+    test::TProcessResult end() {
+        [[maybe_unused]] const auto written = write(m_keys, "q\n", 2);
+        return m_grabber.get();
+    }
+
+    /// What the grabber has written, in its order.
+    std::vector<CObservationPanTilt::Ptr> records() const {
+        observations::registerClasses();
+        std::vector<CObservationPanTilt::Ptr> states;
+        for (const auto& entry : std::filesystem::directory_iterator(m_folder.path())) {
+            if (entry.path().extension() != ".rawlog") continue;
+            mrpt::obs::CRawlog log;
+            EXPECT_TRUE(log.loadFromRawLogFile(entry.path().string()));
+            for (std::size_t i = 0; i < log.size(); ++i)
+                states.push_back(
+                    std::dynamic_pointer_cast<CObservationPanTilt>(log.getAsObservation(i)));
+        }
+        return states;
+    }
+
+    test::CTemporaryFolder m_folder;
+    int m_keys{-1};
+    std::future<test::TProcessResult> m_grabber;
+};
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_F(RawlogGrabber, WritesWhereTheHeadStands) {
+    test::CEviD30 device;
+    test::CEmulator emulator(device, port());
+    {
+        drivers::CViscaCamera camera(port());
+        camera.moveTo(mrpt::DEG2RAD(20.0), mrpt::DEG2RAD(-5.0));
+        camera.wait();
+    }
+    grab("port = " + port() + "\nbase_x_m = 0.2\nbase_z_m = 1.1\n");
+    const bool asked = waitForQuestions(emulator, device, 60);
+    const auto result = end();
+    ASSERT_TRUE(asked) << result.output;
+    EXPECT_EQ(result.exitCode, 0) << result.output;
+    const auto states = records();
+    ASSERT_GE(states.size(), 20U) << result.output;
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        ASSERT_TRUE(states[i]);
+        EXPECT_EQ(states[i]->sensorLabel, "HEAD");
+        EXPECT_NEAR(RAD2DEG(states[i]->pan), 20, 1e-9);
+        EXPECT_NEAR(RAD2DEG(states[i]->tilt), -5, 1e-9);
+        EXPECT_NEAR(states[i]->zoom, 1, 1e-12);
+        EXPECT_NEAR(states[i]->cameraPose().x(), 0.2, 1e-9);
+        if (i == 0) continue;
+        EXPECT_GT(states[i]->timestamp, states[i - 1]->timestamp);
+    }
+}
+
+TEST_F(RawlogGrabber, GoesOnAfterTheCableWasOut) {
+    test::CEviD30 device;
+    test::CEmulator emulator(device, port());
+    grab("port = " + port() + "\nreconnect_s = 0.05\nreply_timeout_s = 0.1\n");
+    const bool before = waitForQuestions(emulator, device, 20);
+    const double out = test::CEmulator::now();
+    emulator.unplug();
+    emulator.plug();
+    const bool after = waitForQuestions(emulator, device, 40);
+    const auto result = end();
+    ASSERT_TRUE(before && after) << result.output;
+    EXPECT_EQ(result.exitCode, 0) << result.output;
+    EXPECT_TRUE(contains(result.output, "camera lost: " + port())) << result.output;
+    EXPECT_TRUE(contains(result.output, "camera found again")) << result.output;
+    int earlier = 0, later = 0;
+    for (const auto& state : records())
+        ++(mrpt::Clock::toDouble(state->timestamp) < out ? earlier : later);
+    EXPECT_GT(earlier, 0);
+    EXPECT_GT(later, 0);
+}
+
+TEST_F(RawlogGrabber, SaysWhichPortIsNotThere) {
+    grab("port = /dev/no-such-port\n");
+    const auto result = m_grabber.get();
+    EXPECT_LT(result.exitCode, 128) << result.output;  // no signal
+    EXPECT_TRUE(contains(result.output, "/dev/no-such-port: no such serial port")) << result.output;
+}
+
+TEST_F(RawlogGrabber, SaysWhichKeyIsWrong) {
+    grab("port = " + port() + "\npan_counts_per_degree = 8\n");
+    const auto result = m_grabber.get();
+    EXPECT_LT(result.exitCode, 128) << result.output;
+    EXPECT_TRUE(contains(result.output, "(HEAD) has unknown keys: pan_counts_per_degree"))
+        << result.output;
+}
