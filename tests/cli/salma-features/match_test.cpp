@@ -113,19 +113,36 @@ TEST(SalmaFeaturesMatch, RefusesMisuseWithCodeTwo) {
     EXPECT_EQ(match({"a.png", "b.png", "--out", "x", "--colour"}).exitCode, 2);
 }
 
-TEST(SalmaFeaturesMatch, KnowsTheChurchillMuralFromGraffitiAndABoat) {
-    SALMA_NEED_DATA(data, "homography");
+/// The last word that is said of the mural's first picture and another one.
+std::string decisionOnChurchill(const std::string& mural, const std::string& other) {
     const CTemporaryFolder folder;
-    const std::pair<const char*, const char*> expected[] = {{"churchill/2.png", "same"},
-                                                            {"churchill/3.png", "same"},
-                                                            {"graf/img1.ppm", "other"},
-                                                            {"boat/img1.pgm", "other"}};
-    for (const auto& [file, decision] : expected) {
-        const auto result = match(
-            {data + "/churchill/1.png", data + "/" + file, "--out", (folder / "out").string()});
-        const std::string line = lastLine(result.output);
-        EXPECT_EQ(line.substr(line.rfind(' ') + 1), decision) << file << ": " << result.output;
+    const auto result = match({mural, other, "--out", (folder / "out").string()});
+    const std::string line = lastLine(result.output);
+    return line.substr(line.rfind(' ') + 1);
+}
+
+TEST(SalmaFeaturesMatch, RecognisesTheChurchillMuralInAllItsPictures) {
+    SALMA_NEED_DATA(data, "homography");
+    for (int k = 2; k <= 6; ++k) {
+        const std::string view = data + "/churchill/" + std::to_string(k) + ".png";
+        EXPECT_EQ(decisionOnChurchill(data + "/churchill/1.png", view), "same") << view;
     }
+}
+
+TEST(SalmaFeaturesMatch, TakesNoOtherPictureForTheChurchillMural) {
+    SALMA_NEED_DATA(mural, "homography/churchill/1.png");
+    SALMA_NEED_DATA(planes, "homography");
+    SALMA_NEED_DATA(corridor, "corridor_images");
+    SALMA_NEED_DATA(posters, "posters");
+    std::vector<std::string> others;
+    for (const char k : std::string("14")) {
+        others.push_back(planes + "/graf/img" + k + ".ppm");
+        others.push_back(planes + "/boat/img" + k + ".pgm");
+    }
+    for (int k = 1; k <= 42; k += 12) others.push_back(corridor + "/" + std::to_string(k) + ".jpg");
+    for (const char* name : {"kodak01", "kodak07", "brick"})
+        others.push_back(posters + "/" + name + ".png");
+    for (const auto& other : others) EXPECT_NE(decisionOnChurchill(mural, other), "same") << other;
 }
 
 }  // namespace
