@@ -127,6 +127,7 @@ void CEviD30::handleInquiry(const TBytes& packet, EFault fault, double now) {
 
 void CEviD30::handleCommand(const TBytes& packet, EFault fault, double now) {
     if (is(packet, {0x01, 0x00, 0x01})) {  // IF_Clear
+        for (CMotor* motor : {&m_pan, &m_tilt, &m_zoom}) motor->stop(now);
         m_sockets = {};
         return say({0x90, 0x50, 0xFF}, fault);
     }
