@@ -96,8 +96,12 @@ CPatchMatcher::CPatchMatcher(const TMatcherOptions& options,
     m_regionOptions.validate();
 }
 
-double CPatchMatcher::logLikelihoodRatio(double score) const {
-    const double table = readTable(m_options.scoreKnots, m_options.logLrKnots, score);
+double CPatchMatcher::logLikelihoodRatio(double score, EEvidence evidence) const {
+    if (evidence == EEvidence::none) return 0;
+    const bool both = evidence == EEvidence::both;
+    const double table =
+        readTable(both ? m_options.scoreKnots : m_options.keypointScoreKnots,
+                  both ? m_options.logLrKnots : m_options.keypointLogLrKnots, score);
     return withDuplicates(table, m_options.duplicateRate);
 }
 
@@ -140,12 +144,8 @@ TPatchMatch CPatchMatcher::match(const observations::TPatch& a,
     const bool withRegions = comparable(a, b, m_regionOptions.sameExtent);
     if (withRegions) matchRegionsOf(a, b, out);
     out.score = withRegions ? (out.keypointScore + out.regionScore) / 2 : out.keypointScore;
-    if (!telling) return out;  // no evidence for or against
-    out.logLikelihoodRatio =
-        withRegions ? logLikelihoodRatio(out.score)
-                    : withDuplicates(readTable(m_options.keypointScoreKnots,
-                                               m_options.keypointLogLrKnots, out.score),
-                                     m_options.duplicateRate);
+    if (telling) out.evidence = withRegions ? EEvidence::both : EEvidence::keypoints;
+    out.logLikelihoodRatio = logLikelihoodRatio(out.score, out.evidence);
     return out;
 }
 

@@ -108,11 +108,12 @@ TEST(LoadWorld, ReadsBackWhatAsIniWrites) {
 }
 
 TEST(LoadWorld, TakesEveryShippedWorld) {
-    for (const std::string name : {"hallway-loop", "corridor-20x3", "blank"}) {
+    for (const std::string name :
+         {"hallway-loop", "corridor-20x3", "blank", "calibration-learn", "calibration-report"}) {
         const TWorld world =
             loadWorld(std::string(SALMA_SOURCE_DIR) + "/share/worlds/" + name + ".ini");
         EXPECT_EQ(world.posters.size(), name == "blank" ? 0u : name == "hallway-loop" ? 14u : 8u);
-        EXPECT_EQ(world.path.laps, 2);
+        EXPECT_EQ(world.path.laps, name.rfind("calibration", 0) == 0 ? 3 : 2);
     }
 }
 

@@ -66,10 +66,18 @@ struct TRelativePose {
     std::size_t pairs{0};  //!< Pairs that it rests on.
 };
 
+/// What a log likelihood ratio was read from.
+enum class EEvidence {
+    none,       //!< Too few keypoints: the ratio is 1.
+    keypoints,  //!< The keypoint score and its table.
+    both        //!< The mean of both scores and its table.
+};
+
 /// How much two patches look like the same piece of wall.
 struct TPatchMatch {
     double score{0};               //!< In [0, 1]: mean of both scores, or the keypoints' alone.
     double logLikelihoodRatio{0};  //!< log p(score | same entity) / p(score | another one).
+    EEvidence evidence{EEvidence::none};
     double keypointScore{0};       //!< In [0, 1].
     double regionScore{0};         //!< In [0, 1].
     bool regionsAgree{false};      //!< The region score is above what the two views demand.
@@ -106,9 +114,8 @@ class CPatchMatcher {
 
     TPatchMatch match(const observations::TPatch& a, const observations::TPatch& b) const;
 
-    /// The table for patches with regions: monotone, piecewise linear, at most
-    /// -log(duplicate_rate).
-    double logLikelihoodRatio(double score) const;
+    /// The table of the evidence: monotone, piecewise linear, at most -log(duplicate_rate).
+    double logLikelihoodRatio(double score, EEvidence evidence = EEvidence::both) const;
 
     const TMatcherOptions& options() const { return m_options; }
 

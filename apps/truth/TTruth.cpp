@@ -51,6 +51,11 @@ std::vector<TTrueLandmark> readLandmarks(const std::string& file) {
         if (kind != "salient" && kind != "corner") table.fail(i, "kind", "is no known kind");
         landmark.kind = kind == "salient" ? ELandmarkKind::salient : ELandmarkKind::corner;
         landmark.position = {table.number(i, "x_m"), table.number(i, "y_m")};
+        if (landmark.kind == ELandmarkKind::salient) {
+            landmark.yaw = table.number(i, "yaw_deg") * M_PI / 180;
+            landmark.texture = table.text(i, "texture");
+            if (landmark.texture.empty()) table.fail(i, "texture", "names no texture");
+        }
         landmarks.push_back(landmark);
     }
     return landmarks;

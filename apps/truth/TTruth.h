@@ -6,6 +6,7 @@
 #include <salma/viz/TTrajectory.h>
 
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,9 @@ struct TTrueLandmark {
     int id{0};
     association::ELandmarkKind kind{association::ELandmarkKind::salient};
     mrpt::math::TPoint2D position;  //!< [m], world of the truth.
+    /// Of a salient one only: direction of its normal [rad], and what is printed on it.
+    double yaw{std::numeric_limits<double>::quiet_NaN()};
+    std::string texture{};
 };
 
 /// A true landmark as the robot saw it.
