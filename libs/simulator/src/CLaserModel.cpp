@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "seeds.h"
 
@@ -36,8 +37,13 @@ double distanceTo(const TSegment& s, const TPoint2D& from, const TPoint2D& direc
 }  // namespace
 
 CLaserModel::CLaserModel(const TLaserOptions& options, const CWorld& world, std::uint32_t seed)
+    : CLaserModel(options, world.segmentsAt(options.z), seed) {}
+
+CLaserModel::CLaserModel(const TLaserOptions& options,
+                         std::vector<TSegment> segments,
+                         std::uint32_t seed)
     : m_options(options),
-      m_segments(world.segmentsAt(options.z)),
+      m_segments(std::move(segments)),
       m_seed(seed),
       m_offset(CRandom(seed, "laser offset", 0).uniform(-options.maxOffset, options.maxOffset)) {
     m_options.validate();

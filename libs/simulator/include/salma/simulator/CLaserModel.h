@@ -20,6 +20,9 @@ class CLaserModel {
  public:
     CLaserModel(const TLaserOptions& options, const CWorld& world, std::uint32_t seed);
 
+    /// In a world without height: `segments` are all that a beam can hit.
+    CLaserModel(const TLaserOptions& options, std::vector<TSegment> segments, std::uint32_t seed);
+
     /** \param T_w_r Pose of the robot. \param index Number of the scan, which selects its noise.
      * \return A scan without time stamp; beams beyond the mode's range are invalid. */
     mrpt::obs::CObservation2DRangeScan scan(const mrpt::math::TPose2D& T_w_r,

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <ostream>
+#include <string>
+
+namespace salma::bench {
+
+/// Command line of the program `place-classes`.
+class CPlacesApp {
+ public:
+    /// `app` must outlive this object.
+    explicit CPlacesApp(CLI::App& app);
+
+    /// Runs the chosen command. \throw std::runtime_error, CLI::ParseError
+    void run(std::ostream& out);
+
+ private:
+    void train(std::ostream& out) const;
+    void test(std::ostream& out) const;
+    void walk(std::ostream& out) const;
+
+    CLI::App* m_train;
+    CLI::App* m_test;
+    CLI::App* m_walk;
+    std::string m_out;
+    std::string m_buildings{"test"};
+    std::uint32_t m_seed{0};
+    int m_count{0};
+    int m_threads{0};
+    double m_evidence{1};
+    double m_surprise{0.3};
+};
+
+}  // namespace salma::bench
