@@ -71,9 +71,7 @@ void CPanTiltCameraSensor::doProcess() {
         record();
     } catch (const std::runtime_error& error) {
         m_camera.reset();
-        m_state = ssError;
-        m_nextAttempt = steadyNow() + m_options.reconnectTime;
-        MRPT_LOG_ERROR_STREAM("camera lost: " << error.what());
+        lost(error.what());
     }
 }
 
@@ -81,11 +79,18 @@ void CPanTiltCameraSensor::reconnect() {
     if (steadyNow() < m_nextAttempt) return;
     try {
         connect();
+        m_problem.clear();
         MRPT_LOG_WARN_STREAM("camera found again at " << m_options.port);
-    } catch (const std::runtime_error&) {  // said when it was lost
-        m_state = ssError;
-        m_nextAttempt = steadyNow() + m_options.reconnectTime;
+    } catch (const std::runtime_error& error) {
+        lost(error.what());
     }
+}
+
+void CPanTiltCameraSensor::lost(const std::string& problem) {
+    m_state = ssError;
+    m_nextAttempt = steadyNow() + m_options.reconnectTime;
+    if (problem != m_problem) MRPT_LOG_ERROR_STREAM("camera lost: " << problem);
+    m_problem = problem;
 }
 
 void CPanTiltCameraSensor::record() {

@@ -40,10 +40,12 @@ CViscaCamera::CViscaCamera(const std::string& port, const TViscaOptions& options
 CViscaCamera::~CViscaCamera() = default;
 
 TPanTiltSample CViscaCamera::panTilt() {
-    const auto answer =
-        m_link->inquire(visca::panTiltInquiry(m_options.address), [](const TViscaReply& reply) {
+    const auto answer = m_link->inquire(
+        visca::panTiltInquiry(m_options.address),
+        [](const TViscaReply& reply) {
             return reply.kind == EViscaReply::information && visca::decodePanTilt(reply.data);
-        });
+        },
+        true);
     const auto head = *visca::decodePanTilt(answer.reply.data);
     TPanTiltSample sample;
     sample.pan = DEG2RAD(head.pan / m_options.panCounts);

@@ -65,11 +65,13 @@ void CViscaLink::initialise() {
 }
 
 TViscaAnswer CViscaLink::inquire(const visca::TPacket& question,
-                                 const std::function<bool(const TViscaReply&)>& good) {
+                                 const std::function<bool(const TViscaReply&)>& good,
+                                 bool fresh) {
     int refusal = 0;
     for (int tries = 0; tries <= m_options.retries; ++tries) {
-        TViscaAnswer answer = send(question);
         refusal = 0;
+        if (fresh && m_lateAnswers && !skipLateAnswers()) continue;
+        TViscaAnswer answer = send(question);
         while (refusal == 0) {
             auto reply = nextAnswer();
             if (!reply) break;
@@ -79,9 +81,20 @@ TViscaAnswer CViscaLink::inquire(const visca::TPacket& question,
             }
             if (reply->kind == EViscaReply::error) refusal = reply->error;
         }
+        if (refusal == 0) m_lateAnswers = true;
         handleRefusal(refusal);
     }
     fail(refusal);
+}
+
+bool CViscaLink::skipLateAnswers() {
+    send(visca::zoomInquiry(m_options.address));  // answered after all that was asked before
+    while (const auto reply = nextAnswer())
+        if (reply->kind == EViscaReply::information && visca::decodeZoom(reply->data)) {
+            m_lateAnswers = false;
+            return true;
+        }
+    return false;
 }
 
 void CViscaLink::start(const visca::TPacket& command, bool repeatable) {

@@ -35,9 +35,12 @@ class CViscaLink {
     CViscaLink(const std::string& port, const TViscaOptions& options);
 
     /** Asks until an answer satisfies `good`.
+     * \param fresh The answer must be to this question: not a late one to an earlier, which looks
+     * the same.
      * \throw CPortError, CViscaError */
     TViscaAnswer inquire(const visca::TPacket& question,
-                         const std::function<bool(const TViscaReply&)>& good);
+                         const std::function<bool(const TViscaReply&)>& good,
+                         bool fresh = false);
 
     /** Starts a command.
      * \param repeatable False if doing it twice would be wrong: then it is sent again only after a
@@ -70,6 +73,8 @@ class CViscaLink {
     void sort(TViscaReply reply);
     /// The next answer to what was sent, waiting until the reply time is over.
     std::optional<TViscaReply> nextAnswer();
+    /// Takes late answers off the line. False: no answer to that either.
+    bool skipLateAnswers();
     /// Waits a little where that helps. \throw CViscaError where repeating does not help.
     void handleRefusal(int code);
 
@@ -81,6 +86,7 @@ class CViscaLink {
     std::vector<int> m_failures;
     double m_deadline{0};  //!< Of the answer to what was sent last, by the steady clock [s].
     bool m_mustInitialise{true};
+    bool m_lateAnswers{false};  //!< Something was not answered in time and may be yet.
 };
 
 }  // namespace salma::drivers

@@ -19,7 +19,10 @@ void CEmulator::locked(const std::function<void()>& body) {
 }
 
 void CEmulator::unplug() {
-    locked([this] { m_terminal.unplug(); });
+    locked([this] {
+        m_terminal.unplug();
+        m_toDevice = m_toComputer = {};
+    });
 }
 
 void CEmulator::plug() {
@@ -35,9 +38,12 @@ void CEmulator::run() {
     while (!m_stop) {
         {
             const std::lock_guard<std::mutex> lock(m_mutex);
-            const TBytes bytes = m_terminal.read(0);
-            if (!bytes.empty()) m_device.receive(bytes, m_terminal.rate(), now());
-            m_terminal.write(m_device.transmit(now()));
+            const int baud = m_terminal.baud();
+            m_toDevice.put(m_terminal.read(0), now(), baud);
+            const TBytes heard = m_toDevice.take(now());
+            if (!heard.empty()) m_device.receive(heard, baud, now());
+            m_toComputer.put(m_device.transmit(now()), now(), baud);
+            m_terminal.write(m_toComputer.take(now()));
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }

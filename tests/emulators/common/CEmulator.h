@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "CPseudoTerminal.h"
+#include "CWire.h"
 
 namespace salma::test {
 
@@ -16,13 +17,14 @@ namespace salma::test {
 class CEmulatedDevice {
  public:
     virtual ~CEmulatedDevice() = default;
-    /// `rate` is that of the computer, as a termios constant.
-    virtual void receive(const TBytes& bytes, unsigned rate, double now) = 0;
+    /// `baud` is that of the computer's end.
+    virtual void receive(const TBytes& bytes, int baud, double now) = 0;
     /// What the device has to say by now.
     virtual TBytes transmit(double now) = 0;
 };
 
-/// Runs a device at the end of a cable, in a thread of its own, until destroyed.
+/// Runs a device at the end of a cable, in a thread of its own, until destroyed. Bytes take the
+/// time that the line's rate gives them, both ways.
 class CEmulator {
  public:
     /// \param device Must outlive this object; touch it through locked() only.
@@ -44,6 +46,7 @@ class CEmulator {
 
     CEmulatedDevice& m_device;
     CPseudoTerminal m_terminal;
+    CWire m_toDevice, m_toComputer;
     std::mutex m_mutex;
     std::atomic<bool> m_stop{false};
     std::thread m_thread;

@@ -56,9 +56,21 @@ void CPseudoTerminal::write(const TBytes& bytes) {
     [[maybe_unused]] const ssize_t n = ::write(m_device, bytes.data(), bytes.size());
 }
 
-unsigned CPseudoTerminal::rate() const {
+int CPseudoTerminal::baud() const {
     termios settings{};
-    return tcgetattr(m_device, &settings) == 0 ? cfgetospeed(&settings) : 0;
+    if (tcgetattr(m_device, &settings) != 0) return 0;
+    switch (cfgetospeed(&settings)) {
+        case B9600:
+            return 9600;
+        case B19200:
+            return 19200;
+        case B38400:
+            return 38400;
+        case B500000:
+            return 500000;
+        default:
+            return 0;
+    }
 }
 
 }  // namespace salma::test

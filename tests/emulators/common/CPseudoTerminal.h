@@ -27,8 +27,8 @@ class CPseudoTerminal {
     TBytes read(int timeoutMs);
     void write(const TBytes& bytes);
 
-    /// Rate that the computer's end is set to, as a termios constant such as B9600.
-    unsigned rate() const;
+    /// Rate that the computer's end is set to; 0 for one that no device here knows.
+    int baud() const;
 
     const std::string& link() const { return m_link; }
 

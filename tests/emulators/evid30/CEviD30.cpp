@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CEviD30.h"
 
-#include <termios.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -40,8 +38,8 @@ std::uint8_t byteOf(int value) { return static_cast<std::uint8_t>(value); }
 
 }  // namespace
 
-void CEviD30::receive(const TBytes& bytes, unsigned rate, double now) {
-    if (rate != B9600 || m_asleep) return;
+void CEviD30::receive(const TBytes& bytes, int baud, double now) {
+    if (baud != 9600 || m_asleep) return;
     for (const auto byte : bytes) {
         m_in.push_back(byte);
         if (byte == 0xFF) {
@@ -60,6 +58,7 @@ TBytes CEviD30::transmit(double now) {
         if (!m_sockets[i]->mute) say({0x90, byteOf(0x51 + static_cast<int>(i)), 0xFF});
         m_sockets[i].reset();
     }
+    if (now < m_silentUntil) return {};
     TBytes out;
     out.swap(m_out);
     return out;
@@ -122,6 +121,7 @@ void CEviD30::handleInquiry(const TBytes& packet, EFault fault, double now) {
         return say({0x90, 0x60, 0x02, 0xFF});
     }
     answer.push_back(0xFF);
+    if (fault == EFault::lateAnswer) m_silentUntil = now + 0.4;
     say(answer, fault);
 }
 

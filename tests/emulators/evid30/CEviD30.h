@@ -18,6 +18,7 @@ enum class EFault {
     noAck,          //!< Carried out, but the acknowledgement gets lost.
     noCompletion,   //!< Carried out, but the completion gets lost.
     cutAnswer,      //!< The answer ends in the middle.
+    lateAnswer,     //!< The answer, and all behind it, comes 0.4 s late.
     garbage,        //!< Noise stands before the answer.
     bufferFull,     //!< Refused with error 03.
     syntaxError,    //!< Refused with error 02.
@@ -33,7 +34,7 @@ enum class EFault {
  * What is not in Sony's list (that last point, and error 41 beyond the ends) is a guess. */
 class CEviD30 : public CEmulatedDevice {
  public:
-    void receive(const TBytes& bytes, unsigned rate, double now) override;
+    void receive(const TBytes& bytes, int baud, double now) override;
     TBytes transmit(double now) override;
 
     /// For the next packets, one each.
@@ -72,6 +73,7 @@ class CEviD30 : public CEmulatedDevice {
     std::array<std::optional<TJob>, 2> m_sockets;
     std::deque<EFault> m_faults;
     TBytes m_in, m_out;
+    double m_silentUntil{0};  //!< What it has to say waits so long.
     std::mt19937 m_random{1};
     int m_packets{0}, m_inquiries{0}, m_motions{0};
 };

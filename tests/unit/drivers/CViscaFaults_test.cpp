@@ -96,6 +96,21 @@ TEST_F(ViscaFaults, CutAnswersAndNoiseAreSurvived) {
     }
 }
 
+TEST_F(ViscaFaults, ALateAnswerIsNotTakenForAFreshOne) {
+    CViscaCamera camera(port(), quick());
+    const double speed = DEG2RAD(20.0);
+    camera.moveTo(DEG2RAD(60.0), 0, speed);
+    misbehave({EFault::lateAnswer});
+    for (int i = 0; i < 5; ++i) {
+        const auto state = camera.panTilt();
+        double truth = 0;
+        m_emulator.locked([&] { truth = m_device.pan().at(state.time); });
+        const double slack = RAD2DEG(speed * state.uncertainty) * 8.8 + 0.5 + 1e-3;
+        EXPECT_NEAR(RAD2DEG(state.pan) * 8.8, truth, slack);
+    }
+    camera.stop();
+}
+
 TEST_F(ViscaFaults, ALostCompletionIsMadeUpForByLooking) {
     CViscaCamera camera(port(), quick());
     misbehave({EFault::noCompletion});
@@ -170,7 +185,7 @@ TEST_F(ViscaFaults, AnyMixtureOfFaultsLeavesADriverThatWorks) {
     CViscaCamera camera(port(), quick());
     for (int run = 0; run < 12; ++run) {
         std::deque<EFault> faults;
-        for (int i = 0; i < 6; ++i) faults.push_back(static_cast<EFault>(random() % 10));
+        for (int i = 0; i < 6; ++i) faults.push_back(static_cast<EFault>(random() % 11));
         misbehave(faults);
         try {
             camera.moveTo(DEG2RAD(static_cast<double>(random() % 11) - 5), 0);

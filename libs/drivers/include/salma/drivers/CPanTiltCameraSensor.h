@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 
 namespace salma::drivers {
 
@@ -18,7 +19,7 @@ class CViscaCamera;
  * `process_rate`, and says where the camera was when a picture was taken.
  *
  * Records are stamped half way between question and answer. A camera that does not answer when the
- * program starts is an error; one that is lost later (cable, power) is said once, looked for every
+ * program starts is an error; one that is lost later (cable, power) is told once, looked for every
  * `reconnect_s`, and goes on when it is back: no record stands for the time between.
  * `cameraPose()` and `stamp()` may be called from any thread. */
 class CPanTiltCameraSensor : public mrpt::system::COutputLogger,
@@ -51,12 +52,14 @@ class CPanTiltCameraSensor : public mrpt::system::COutputLogger,
  private:
     void connect();
     void reconnect();
+    void lost(const std::string& problem);
     void record();
     void remember(const observations::CObservationPanTilt::Ptr& state);
 
     TPanTiltCameraOptions m_options;
     std::unique_ptr<CViscaCamera> m_camera;  //!< Empty while it is lost.
     double m_nextAttempt{0};                 //!< By the steady clock [s].
+    std::string m_problem;                   //!< That was said last; each is said once.
     int m_recordsUntilZoom{0};
     double m_zoom{1};
     mutable std::mutex m_mutex;  //!< Of m_history.
