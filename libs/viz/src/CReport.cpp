@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <salma/viz/CReport.h>
 #include <salma/viz/CTrajectoryScore.h>
+#include <salma/viz/reportStyle.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,6 @@
 #include <utility>
 
 #include "CTextFile.h"
-#include "reportStyle.h"
 
 namespace salma::viz {
 namespace {

@@ -27,7 +27,8 @@ struct THomographyOptions : public config::TStrictOptions<THomographyOptions> {
  *
  * Points are of any unit. Nothing is returned where the points determine no invertible map: fewer
  * than four or unequal numbers of them, numbers that are not finite, all or all but one on a line
- * or in one place, or sides that cross so that the map would tear the points apart. Threads: safe. */
+ * or in one place, or sides that cross so that the map would tear the points apart. Threads: safe.
+ */
 class CHomography {
  public:
     /** Through four or more pairs, by the direct linear transform.
