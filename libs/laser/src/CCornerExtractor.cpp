@@ -76,6 +76,17 @@ double largestSigma(const Eigen::Matrix2d& covariance) {
     return std::sqrt(eigen.eigenvalues()[1]);
 }
 
+/** Variance of the edge's place along its wall [m^2]: it lies anywhere between two beams, and the
+ * noise of the last one moves it. */
+double edgeVariance(double step,
+                    const Eigen::Vector2d& ray,
+                    double along,
+                    const TLineResult& scan) {
+    const double turned = scan.beamStep > 0 ? step * scan.bearingSigma / scan.beamStep : 0;
+    const double pushed = scan.rangeSigma * along / ray.norm();
+    return step * step / 12 + turned * turned + pushed * pushed;
+}
+
 /// The edge of a wall: between its last point and the beam that passes it.
 TCorner edgeOf(const TLine& line, const mrpt::math::TPoint2D& end, const TLineResult& scan) {
     const Eigen::Vector2d last = asVector(end);
@@ -84,12 +95,14 @@ TCorner edgeOf(const TLine& line, const mrpt::math::TPoint2D& end, const TLineRe
     const double step = spacing(line, last, scan);
     const Eigen::Vector2d p = last + 0.5 * step * outward;
     const Eigen::Vector2d normal(std::cos(line.alpha), std::sin(line.alpha));
+    const Eigen::Vector2d ray = last - asVector(scan.sensor);
     const Eigen::Vector2d J(1, p.x() * normal.y() - p.y() * normal.x());
     TCorner corner;
     corner.position = {p.x(), p.y()};
     corner.convex = true;
-    corner.covariance = step * step / 12 * outward * outward.transpose() +
-                        J.dot(line.covariance * J) * normal * normal.transpose();
+    corner.covariance =
+        edgeVariance(step, ray, ray.dot(outward), scan) * outward * outward.transpose() +
+        J.dot(line.covariance * J) * normal * normal.transpose();
     return corner;
 }
 

@@ -93,6 +93,13 @@ std::vector<double> CLaserModel::trueRanges(const TPose2D& T_w_r) const {
     return ranges;
 }
 
+std::vector<int> CLaserModel::trueSegments(const TPose2D& T_w_r) const {
+    std::vector<int> segments;
+    for (const THit& hit : castAll(laserPose(T_w_r)))
+        segments.push_back(hit.segment == kNothing ? -1 : static_cast<int>(hit.segment));
+    return segments;
+}
+
 std::optional<double> CLaserModel::mixed(const TPose2D& T_w_l, double angle, double share) const {
     const TPoint2D origin(T_w_l.x, T_w_l.y);
     const double right = castOne(origin, angle - m_options.beamWidth / 2);

@@ -11,13 +11,17 @@
 
 namespace salma::laser {
 
+/// How the lines of a scan are found.
+enum class ELineMethod { ransac, splitMerge };
+
 /// Section [lines] of config.ini.
 struct TLineOptions : public config::TStrictOptions<TLineOptions> {
+    ELineMethod method{ELineMethod::ransac};
     double inlier{0.025};       //!< Points this near belong to a line [m].
     double gap{0.25};           //!< A hole longer than this along a line splits it [m].
     double minLength{0.05};     //!< Shorter pieces are refused; a door jamb is 0.12 [m].
     int minPoints{4};           //!< Pieces with fewer points are refused.
-    int hypotheses{100};        //!< RANSAC samples for each line.
+    int hypotheses{100};        //!< RANSAC samples of a scan; of what is left, at most so many.
     int window{20};             //!< The two points of a sample are at most this many beams apart.
     double maxRange{20};        //!< Longer ranges are not used [m].
     double rangeSigma{0.005};   //!< Noise of a range; the record's own sigma, if larger [m].
@@ -43,18 +47,25 @@ struct TLineResult {
     std::size_t loosePoints{0};       //!< Used readings that lie on no line.
     std::size_t refusedPoints{0};     //!< Pieces with fewer points than `min_points`.
     std::size_t refusedShort{0};      //!< Pieces shorter than `min_length_m`.
-    bool tilted{false};           //!< The scanner is not level within 10 deg: nothing extracted.
+    bool tilted{false};       //!< The scanner is not level within 10 deg: nothing extracted.
+    bool constant{false};     //!< All readings are equal, as of a dead scanner: nothing extracted.
+    bool badGeometry{false};  //!< Aperture not in (0, 360] deg, or place of the scanner not finite:
+                              //!< nothing extracted.
     mrpt::math::TPoint2D sensor;  //!< Where the scanner stands in the robot frame [m].
     double beamStep{0};           //!< Angle between neighbouring beams [rad].
+    double rangeSigma{0};         //!< Noise of a range, with its rounding [m].
+    double bearingSigma{0};       //!< Noise of a beam's direction [rad].
 };
 
 /** Straight pieces of wall in one scan of a level 2-D laser.
  *
- * RANSAC: a hypothesis is the line through two beams near each other, its support the unbroken run
- * of points within `inlier_m` around them. The hypothesis with most support is refined by weighted
- * total least squares and grown again until it is stable; its points are removed, and so on. The
- * covariance of (rho, alpha) follows from the noise of range and bearing of the points.
- * A scanner mounted upside down is understood from its sensor pose. Deterministic.
+ * Lines are found by RANSAC, or by split and merge for comparison (`method`), and then treated
+ * alike. RANSAC: a hypothesis is the line through two beams near each other, its support the
+ * unbroken run of points within `inlier_m` around them. The hypothesis with most support is refined
+ * by weighted total least squares and grown again until it is stable; its points are removed, and
+ * so on. The covariance of (rho, alpha) follows from the noise of range and bearing of the points.
+ * A scanner mounted upside down is understood from its sensor pose. Deterministic: the same scan
+ * gives the same lines. docs/laser.md has definitions and figures.
  * Source: M. Fischler and R. Bolles, "Random sample consensus", Comm. ACM 24(6), 1981; S. Pfister,
  * S. Roumeliotis and J. Burdick, "Weighted line fitting algorithms for mobile robot map building",
  * ICRA 2003 (weights; the refinement here is Gauss-Newton on the same cost). */

@@ -31,6 +31,12 @@ class CLaserModel {
     /// Range along each beam, without any noise [m]; infinity where nothing is hit.
     std::vector<double> trueRanges(const mrpt::math::TPose2D& T_w_r) const;
 
+    /// Index into segments() of what the middle of each beam hits; -1 where nothing is hit.
+    std::vector<int> trueSegments(const mrpt::math::TPose2D& T_w_r) const;
+
+    /// What the beams can hit, in the world.
+    const std::vector<TSegment>& segments() const { return m_segments; }
+
     /// Constant error of this run's ranges [m].
     double offset() const { return m_offset; }
 
