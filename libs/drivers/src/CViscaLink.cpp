@@ -18,6 +18,18 @@ double steadyNow() {
         .count();
 }
 
+/// A flag that is up as long as this lives.
+class CRaised {
+ public:
+    explicit CRaised(bool& flag) : m_flag(flag) { m_flag = true; }
+    ~CRaised() { m_flag = false; }
+    CRaised(const CRaised&) = delete;
+    CRaised& operator=(const CRaised&) = delete;
+
+ private:
+    bool& m_flag;
+};
+
 std::string meaning(int code) {
     switch (code) {
         case 0:
@@ -45,23 +57,22 @@ CViscaLink::CViscaLink(const std::string& port, const TViscaOptions& options)
 }
 
 void CViscaLink::initialise() {
-    m_mustInitialise = false;  // what follows is sent like all else; fail() sets it again
+    const CRaised initialising(m_initialising);
     m_parser.reset();
     m_running.clear();
     const auto counted = inquire(visca::addressSet(), [](const TViscaReply& reply) {
         return reply.kind == EViscaReply::addressSet;
     });
     const int cameras = counted.reply.data[0] - 1;
-    if (cameras < m_options.address) {
-        m_mustInitialise = true;
+    if (cameras < m_options.address)
         throw CViscaError(m_line.port() + ": there is no camera " +
                               std::to_string(m_options.address) + " in a chain of " +
                               std::to_string(cameras),
                           0);
-    }
     inquire(visca::interfaceClear(m_options.address), [](const TViscaReply& reply) {
         return reply.kind == EViscaReply::completion && reply.socket == 0;
     });
+    m_mustInitialise = false;
 }
 
 TViscaAnswer CViscaLink::inquire(const visca::TPacket& question,
@@ -128,8 +139,8 @@ void CViscaLink::cancelAll() {
     const auto sockets = m_running;
     for (const int socket : sockets) {
         send(visca::cancel(m_options.address, socket));
-        while (m_running.count(socket) > 0 && listen(m_deadline - steadyNow()))
-            ;
+        while (m_running.count(socket) > 0 && steadyNow() < m_deadline)
+            listen(m_deadline - steadyNow());
     }
     m_failures.clear();
     m_running.clear();
@@ -149,7 +160,7 @@ bool CViscaLink::waitForEnd(double timeout) {
 std::vector<int> CViscaLink::takeFailures() { return std::exchange(m_failures, {}); }
 
 TViscaAnswer CViscaLink::send(const visca::TPacket& packet) {
-    if (m_mustInitialise) initialise();
+    if (m_mustInitialise && !m_initialising) initialise();
     constexpr int patience = 64;  // a port that never stops sending must not hold us for ever
     for (int i = 0; i < patience && listen(0); ++i)
         ;
@@ -175,7 +186,7 @@ void CViscaLink::sort(TViscaReply reply) {
     const bool ofRunning = m_running.count(reply.socket) > 0;
     if (reply.kind == EViscaReply::networkChange) {
         m_mustInitialise = true;
-    } else if (reply.kind == EViscaReply::completion && reply.socket != 0) {
+    } else if (reply.kind == EViscaReply::completion && (ofRunning || reply.socket != 0)) {
         m_running.erase(reply.socket);
     } else if (reply.kind == EViscaReply::error && ofRunning) {
         m_running.erase(reply.socket);

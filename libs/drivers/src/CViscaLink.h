@@ -86,6 +86,7 @@ class CViscaLink {
     std::vector<int> m_failures;
     double m_deadline{0};  //!< Of the answer to what was sent last, by the steady clock [s].
     bool m_mustInitialise{true};
+    bool m_initialising{false};
     bool m_lateAnswers{false};  //!< Something was not answered in time and may be yet.
 };
 

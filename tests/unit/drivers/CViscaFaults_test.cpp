@@ -111,6 +111,33 @@ TEST_F(ViscaFaults, ALateAnswerIsNotTakenForAFreshOne) {
     camera.stop();
 }
 
+TEST(ViscaNoise, ADeviceThatNeverStopsTalkingIsGivenUp) {
+    /// Says the same for ever, or noise.
+    class CBabbler : public test::CEmulatedDevice {
+     public:
+        explicit CBabbler(test::TBytes text) : m_text(std::move(text)) {}
+        void receive(const test::TBytes&, int, double) override {}
+        test::TBytes transmit(double) override {
+            if (m_text.empty()) return {static_cast<std::uint8_t>(m_random())};
+            return m_text;
+        }
+
+     private:
+        test::TBytes m_text;
+        std::mt19937 m_random{20043};
+    };
+    auto options = drivers::TViscaOptions();
+    options.retries = 1;
+    for (const auto& text :
+         {test::TBytes{}, test::TBytes{0x90, 0x38, 0xFF}, test::TBytes{0x90, 0x41, 0xFF},
+          test::TBytes{0x90, 0x60, 0x03, 0xFF}, test::TBytes{0x88, 0x30, 0x02, 0xFF}}) {
+        const test::CTemporaryFolder folder;
+        CBabbler babbler(text);
+        const test::CEmulator emulator(babbler, (folder / "port").string());
+        EXPECT_THROW(CViscaCamera((folder / "port").string(), options), CViscaError);
+    }
+}
+
 TEST_F(ViscaFaults, ALostCompletionIsMadeUpForByLooking) {
     CViscaCamera camera(port(), quick());
     misbehave({EFault::noCompletion});

@@ -5,6 +5,7 @@
 #include <mrpt/core/bits_math.h>
 #include <mrpt/obs/CRawlog.h>
 #include <salma/drivers/CViscaCamera.h>
+#include <salma/observations/CLogReader.h>
 #include <salma/observations/CObservationPanTilt.h>
 #include <salma/observations/registerClasses.h>
 #include <sys/stat.h>
@@ -72,18 +73,22 @@ class RawlogGrabber : public testing::Test {
         return m_grabber.get();
     }
 
-    /// What the grabber has written, in its order.
+    /// The file that the grabber has written; "" if there is none.
+    std::string logFile() const {
+        for (const auto& entry : std::filesystem::directory_iterator(m_folder.path()))
+            if (entry.path().extension() == ".rawlog") return entry.path().string();
+        return "";
+    }
+
+    /// What is in it, in its order.
     std::vector<CObservationPanTilt::Ptr> records() const {
         observations::registerClasses();
+        mrpt::obs::CRawlog log;
+        EXPECT_TRUE(log.loadFromRawLogFile(logFile()));
         std::vector<CObservationPanTilt::Ptr> states;
-        for (const auto& entry : std::filesystem::directory_iterator(m_folder.path())) {
-            if (entry.path().extension() != ".rawlog") continue;
-            mrpt::obs::CRawlog log;
-            EXPECT_TRUE(log.loadFromRawLogFile(entry.path().string()));
-            for (std::size_t i = 0; i < log.size(); ++i)
-                states.push_back(
-                    std::dynamic_pointer_cast<CObservationPanTilt>(log.getAsObservation(i)));
-        }
+        for (std::size_t i = 0; i < log.size(); ++i)
+            states.push_back(
+                std::dynamic_pointer_cast<CObservationPanTilt>(log.getAsObservation(i)));
         return states;
     }
 
@@ -123,6 +128,14 @@ TEST_F(RawlogGrabber, WritesWhereTheHeadStands) {
         if (i == 0) continue;
         EXPECT_GT(states[i]->timestamp, states[i - 1]->timestamp);
     }
+    // salma's own reader takes the log and knows where the camera was between two records.
+    const auto log = observations::readLog(logFile());
+    const double between = (mrpt::Clock::toDouble(states[3]->timestamp) +
+                            mrpt::Clock::toDouble(states[4]->timestamp)) /
+                           2;
+    const auto pose = log.panTilt.cameraPose(between, 0);
+    ASSERT_TRUE(pose);
+    EXPECT_LT(pose->distanceTo(states[0]->cameraPose()), 1e-9);
 }
 
 TEST_F(RawlogGrabber, GoesOnAfterTheCableWasOut) {
