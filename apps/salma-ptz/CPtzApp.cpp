@@ -20,9 +20,10 @@ using mrpt::RAD2DEG;
 void printState(CViscaCamera& camera, std::ostream& out) {
     const auto head = camera.panTilt();
     const double zoom = camera.zoom();
-    out << mrpt::format("pan   %8.2f deg\ntilt  %8.2f deg\nzoom  %8.2f\nfield %8.2f deg\n",
-                        RAD2DEG(head.pan), RAD2DEG(head.tilt), zoom,
-                        RAD2DEG(camera.fieldOfView(zoom)));
+    out << mrpt::format(
+        "pan   %8.2f deg\ntilt  %8.2f deg\nzoom  %8.2f, %d counts\nfield %8.2f deg\n",
+        RAD2DEG(head.pan), RAD2DEG(head.tilt), zoom, camera.options().zoom.counts(zoom),
+        RAD2DEG(camera.fieldOfView(zoom)));
 }
 
 }  // namespace

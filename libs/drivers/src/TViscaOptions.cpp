@@ -52,13 +52,15 @@ void TViscaOptions::visit(config::COptionVisitor& v) {
               "horizontal field, fully zoomed");
     v.integer("zoom_max_counts", zoom.maxCounts, between(1, 0xFFFF),
               "position of the zoom when fully zoomed");
+    v.numbers("field_table_deg", zoom.tableDegrees, atLeast(0),
+              "measured in between: zoom counts, horizontal field, counts, field, ...");
 }
 
 void TViscaOptions::validate() const {
     checkRanges();
     checkAxis("pan", panMin, panMax, panCounts);
     checkAxis("tilt", tiltMin, tiltMax, tiltCounts);
-    require(zoom.teleField < zoom.wideField, "field_tele_deg is not smaller than field_wide_deg");
+    zoom.validate();
 }
 
 }  // namespace salma::drivers

@@ -63,14 +63,14 @@ TEST_F(SalmaPtz, TellsWhereTheCameraLooks) {
     const auto result = camera({"status"});
     EXPECT_EQ(result.exitCode, 0);
     EXPECT_EQ(result.output,
-              "pan       0.00 deg\ntilt      0.00 deg\nzoom      1.00\nfield    48.80 deg\n");
+              "pan       0.00 deg\ntilt      0.00 deg\nzoom      1.00, 0 counts\nfield    48.80 deg\n");
 }
 
 TEST_F(SalmaPtz, MovesAndSaysWhereItIsThen) {
     const auto result = camera({"move", "20", "-5"});
     EXPECT_EQ(result.exitCode, 0) << result.output;
     EXPECT_EQ(result.output,
-              "pan      20.00 deg\ntilt     -5.00 deg\nzoom      1.00\nfield    48.80 deg\n");
+              "pan      20.00 deg\ntilt     -5.00 deg\nzoom      1.00, 0 counts\nfield    48.80 deg\n");
     expectHeadAt(176, -60);
 }
 
@@ -82,7 +82,7 @@ TEST_F(SalmaPtz, TakesNegativeAnglesAndASpeedAndDifferences) {
 }
 
 TEST_F(SalmaPtz, ZoomsGoesHomeAndStops) {
-    EXPECT_NE(camera({"zoom", "1.5"}).output.find("zoom      1.50"), std::string::npos);
+    EXPECT_NE(camera({"zoom", "1.5"}).output.find("zoom      1.50, 168 counts"), std::string::npos);
     EXPECT_EQ(camera({"move", "5", "5"}).exitCode, 0);
     EXPECT_EQ(camera({"home"}).exitCode, 0);
     expectHeadAt(0, 0);

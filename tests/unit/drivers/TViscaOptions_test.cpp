@@ -69,3 +69,41 @@ TEST(TZoomModel, CountsAndFactorsAreInverse) {
         last = field;
     }
 }
+
+TEST(TZoomModel, PassesThroughWhatWasMeasured) {
+    auto lens = TViscaOptions().zoom;
+    lens.tableDegrees = {400, 25, 800, 9};
+    EXPECT_NO_THROW(lens.validate());
+    EXPECT_NEAR(lens.field(lens.factor(0)), DEG2RAD(48.8), 1e-12);
+    EXPECT_NEAR(lens.field(lens.factor(400)), DEG2RAD(25.0), 1e-12);
+    EXPECT_NEAR(lens.field(lens.factor(800)), DEG2RAD(9.0), 1e-12);
+    EXPECT_NEAR(lens.field(lens.maxFactor()), DEG2RAD(4.4), 1e-12);
+    EXPECT_NEAR(std::pow(lens.factor(600), 2), lens.factor(400) * lens.factor(800), 1e-9);
+    for (int counts = 0; counts <= 1023; ++counts)
+        ASSERT_EQ(lens.counts(lens.factor(counts)), counts);
+}
+
+TEST(TZoomModel, ATableThatDoesNotFallIsRefused) {
+    const auto isGood = [](const std::vector<double>& table) {
+        auto lens = TViscaOptions().zoom;
+        lens.tableDegrees = table;
+        try {
+            lens.validate();
+        } catch (const std::invalid_argument&) {
+            return false;
+        }
+        return true;
+    };
+    EXPECT_TRUE(isGood({}));
+    EXPECT_TRUE(isGood({400, 25}));
+    EXPECT_FALSE(isGood({400}));
+    EXPECT_FALSE(isGood({0, 25}));
+    EXPECT_FALSE(isGood({1023, 25}));
+    EXPECT_FALSE(isGood({400, 25, 300, 20}));
+    EXPECT_FALSE(isGood({400, 25, 500, 26}));
+    EXPECT_FALSE(isGood({400, 60}));
+    EXPECT_FALSE(isGood({400, 4}));
+    EXPECT_FALSE(isGood({400, 0}));
+    EXPECT_FALSE(isGood({400, 200}));
+    EXPECT_NE(messageOf("field_table_deg = 400 60\n").find("field_table_deg"), std::string::npos);
+}

@@ -9,10 +9,11 @@ namespace salma::drivers {
 
 /** A pan/tilt camera that speaks VISCA; the defaults are those of Sony's EVI-D30.
  *
- * Sources: limits and field of view, Ho (2004), 4.4.2; counts per degree (0x370 = 880 for 100 deg,
- * 0x12C = 300 for 25 deg) and speeds, Sony, "EVI-D100 Technical Manual" and "EVI-D70 Technical
- * Manual", chapter "D30/D31 mode". That positive pan is to the left is Ho's (035D "left", FCA4
- * "right"); Sony's manual says right, for its own view. So the sign is an option: check it once. */
+ * Sources: limits and field of view, Ho (2004), 4.4.2 (48.8 deg also Sony); counts per degree
+ * (0x370 = 880 for 100 deg, 0x12C = 300 for 25 deg), zoom counts and speeds, Sony, "EVI-D100
+ * Technical Manual" and "EVI-D70 Technical Manual", chapter "D30/D31 mode". That positive pan is to
+ * the left is Ho's (035D "left", FCA4 "right"); Sony's manual says right, for its own view. So the
+ * sign is an option: check it once. */
 struct TViscaOptions : public config::TStrictOptions<TViscaOptions> {
     int baud{9600};
     int address{1};            //!< Place in the chain of cameras, 1 .. 7.
@@ -25,7 +26,7 @@ struct TViscaOptions : public config::TStrictOptions<TViscaOptions> {
     double tiltMin{mrpt::DEG2RAD(-25.0)}, tiltMax{mrpt::DEG2RAD(25.0)};  //!< [rad]
     double panMaxSpeed{mrpt::DEG2RAD(80.0)};   //!< Of speed byte 18 (hexadecimal) [rad/s].
     double tiltMaxSpeed{mrpt::DEG2RAD(50.0)};  //!< Of speed byte 14 (hexadecimal) [rad/s].
-    TZoomModel zoom{mrpt::DEG2RAD(48.8), mrpt::DEG2RAD(4.4), 0x3FF};
+    TZoomModel zoom{mrpt::DEG2RAD(48.8), mrpt::DEG2RAD(4.4), 0x3FF, {}};
 
     void visit(config::COptionVisitor& visitor);
     /// \throw std::invalid_argument naming the key.
