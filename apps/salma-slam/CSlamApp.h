@@ -2,7 +2,7 @@
 #pragma once
 
 #include <salma/observations/CLogReader.h>
-#include <salma/slam/TRunRecord.h>
+#include <salma/slam/CSlamBackend.h>
 #include <salma/viz/TTrajectory.h>
 
 #include <memory>
@@ -21,6 +21,7 @@ struct TSlamArguments {
     std::string config;
     std::string rawlog;
     std::string out;
+    std::string backend;            //!< Empty: as the configuration has it.
     std::string association;        //!< "" leaves the method of the ini file.
     int seed{-1};                   //!< -1 leaves the seeds of the ini file.
     bool ignoreIdentities{false};   //!< Identities in the log are not read.
@@ -46,6 +47,7 @@ class CSlamApp {
 
  private:
     std::string accuracy() const;
+    std::unique_ptr<slam::CSlamBackend> createBackend() const;
     void noticeWhatIsMissing();
     void noticeOfPictures(const TSeen& seen);
     void noticeOfCalibration();

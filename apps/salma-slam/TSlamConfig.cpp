@@ -30,6 +30,8 @@ void forEachSection(CONFIG& c, VISITOR visitor) {
     visitor("region_matcher", c.regionMatcher);
     visitor("association", c.association);
     visitor("ekf", c.ekf);
+    visitor("rbpf", c.rbpf);
+    visitor("landmark_map", c.landmarkMap);
     visitor("odometry", c.odometry);
     visitor("range_bearing", c.rangeBearing);
 }
@@ -38,6 +40,8 @@ void forEachSection(CONFIG& c, VISITOR visitor) {
 
 void TRunOptions::visit(config::COptionVisitor& v) {
     v.text("rawlog", rawlog, "log to read if the command line names none, beside this file");
+    v.choice("backend", backend, {{"ekf", EBackend::ekf}, {"rbpf", EBackend::rbpf}},
+             "extended Kalman filter, or particles with a map each");
     v.integer("threads", threads, config::between(0, 256),
               "for the pictures, 0: one per core; the result does not depend on it");
     v.flag("corners", corners, "laser corners are landmarks");

@@ -7,8 +7,10 @@
 #include <salma/laser/CCornerExtractor.h>
 #include <salma/laser/CLineExtractor.h>
 #include <salma/laser/CWallOdometry.h>
+#include <salma/slam/CLandmarkMapSetup.h>
 #include <salma/slam/COdometryNoise.h>
 #include <salma/slam/TEkfOptions.h>
+#include <salma/slam/TRbpfOptions.h>
 #include <salma/slam/rangeBearing.h>
 
 #include <cmath>
@@ -16,8 +18,11 @@
 
 namespace salma::apps {
 
+enum class EBackend { ekf, rbpf };
+
 /// Section [run] of config.ini.
 struct TRunOptions : public config::TStrictOptions<TRunOptions> {
+    EBackend backend{EBackend::ekf};
     std::string rawlog;  //!< Log to read if the command line names none.
     int threads{0};      //!< For the pictures; 0: one per core. The result does not depend on it.
     bool corners{true};  //!< Laser corners are landmarks.
@@ -40,6 +45,8 @@ struct TSlamConfig {
     appearance::TRegionMatchOptions regionMatcher;
     association::TAssociationOptions association;
     slam::TEkfOptions ekf;
+    slam::TRbpfOptions rbpf;
+    slam::TLandmarkMapOptions landmarkMap;
     slam::TOdometryOptions odometry;
     slam::TRangeBearingOptions rangeBearing;
 

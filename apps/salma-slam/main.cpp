@@ -12,9 +12,8 @@ int main(int argc, char** argv) {
     app.add_option("CONFIG", arguments.config, "ini file, such as config.ini");
     app.add_option("RAWLOG", arguments.rawlog, "log to read; else `rawlog` in [run]");
     app.add_option("--out", arguments.out, "folder for the results; replaced if it holds some");
-    app.add_option_function<std::string>(
-           "--backend", [](const std::string&) {}, "ekf")
-        ->check(CLI::IsMember({"ekf"}));
+    app.add_option("--backend", arguments.backend, "ekf or rbpf")
+        ->check(CLI::IsMember({"ekf", "rbpf"}));
     app.add_option("--association", arguments.association, "nn, scnn, jcbb or saliency")
         ->check(CLI::IsMember({"nn", "scnn", "jcbb", "saliency"}));
     app.add_option("--seed", arguments.seed, "seed of all random steps")

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "measurements.h"
 
-#include <salma/appearance/TPolarMeasurement.h>
+#include <salma/slam/salientMeasurement.h>
 
 #include <cmath>
 
@@ -46,15 +46,8 @@ void addCorner(const laser::TCorner& corner, slam::TStepInput& step) {
 void addPatch(const observations::TPatch& patch,
               const mrpt::poses::CPose3D& T_r_c,
               slam::TStepInput& step) {
-    const auto polar = appearance::polarMeasurement(patch);
-    association::TMeasurement m;
-    m.kind = association::ELandmarkKind::salient;
-    m.z = polar.z;
-    m.R = polar.R;
-    m.wallAngle = polar.wallAngle;
-    m.wallAngleSigma = polar.wallAngleSigma;
-    m.patch = std::make_shared<observations::TPatch>(patch);
-    step.measurements.push_back(m);
+    step.measurements.push_back(
+        slam::measurementOf(std::make_shared<const observations::TPatch>(patch)));
     slam::TSpot spot;
     spot.pixel = centreOf(patch);
     spot.axisAngle = axisAngleOf(patch.pose.mean.translation(), T_r_c);

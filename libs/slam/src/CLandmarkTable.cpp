@@ -37,6 +37,15 @@ void CLandmarkTable::setFirst(std::size_t index,
     m_landmarks[index].firstCovariance = covariance;
 }
 
+void CLandmarkTable::erase(std::size_t index) {
+    m_landmarks.erase(m_landmarks.begin() + static_cast<std::ptrdiff_t>(index));
+}
+
+void CLandmarkTable::restore(std::vector<TLandmark> landmarks, int nextId) {
+    m_landmarks = std::move(landmarks);
+    m_nextId = nextId;
+}
+
 void CLandmarkTable::sight(std::size_t index,
                            const association::TMeasurement& measurement,
                            double time,

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
+
+#include "recordRows.h"
 
 namespace salma::slam {
 
@@ -15,18 +16,6 @@ using association::TAssociationProblem;
 using association::TMeasurement;
 
 namespace {
-
-void check(const TStepInput& step) {
-    const auto& mean = step.increment.mean;
-    const bool finite = std::isfinite(step.time) && std::isfinite(mean.x()) &&
-                        std::isfinite(mean.y()) && std::isfinite(mean.phi()) &&
-                        step.increment.cov.asEigen().allFinite();
-    if (!finite) throw std::invalid_argument("Odometry of a step is not finite");
-    if (!step.spots.empty() && step.spots.size() != step.measurements.size())
-        throw std::invalid_argument("A step has " + std::to_string(step.spots.size()) +
-                                    " places in the picture for " + std::to_string(step.measurements.size()) +
-                                    " measurements");
-}
 
 /// Probability that a normally distributed value is below a limit.
 double probabilityBelow(double limit, double mean, double sigma) {
@@ -66,7 +55,7 @@ mrpt::poses::CPosePDFGaussian CSalientEKF2D::pose() const {
 }
 
 void CSalientEKF2D::process(const TStepInput& step) {
-    check(step);
+    checkStep(step);
     m_now = {};
     m_now.input = step;
     if (m_ekf.ignoreIdentities)

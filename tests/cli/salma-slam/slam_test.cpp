@@ -171,6 +171,21 @@ TEST(SalmaSlam, SeesPostersInASimulatedObservationOnlyLogAndReplaysItsRecords) {
               readFile(folder / "replayed/trajectory.tum"));
 }
 
+TEST(SalmaSlam, MapsWithParticles) {
+    const CTemporaryFolder folder;
+    const auto ini = folder.write("p.ini", "[run]\nbackend = rbpf\n[rbpf]\nparticles = 15\n");
+    const auto first = slam(ini, simulatedLog(), folder / "a");
+    ASSERT_EQ(first.exitCode, 0) << first.output;
+    EXPECT_NE(readFile(folder / "a/landmarks.csv").find("salient"), std::string::npos);
+    ASSERT_EQ(slam(kConfig, simulatedLog(), folder / "b", {"--backend", "ekf"}).exitCode, 0);
+    EXPECT_NE(readFile(folder / "a/trajectory.tum"), readFile(folder / "b/trajectory.tum"));
+    // the seed decides, and nothing else
+    ASSERT_EQ(slam(ini, simulatedLog(), folder / "c", {"--seed", "1"}).exitCode, 0);
+    EXPECT_EQ(readFile(folder / "a/trajectory.tum"), readFile(folder / "c/trajectory.tum"));
+    ASSERT_EQ(slam(ini, simulatedLog(), folder / "d", {"--seed", "2"}).exitCode, 0);
+    EXPECT_NE(readFile(folder / "a/trajectory.tum"), readFile(folder / "d/trajectory.tum"));
+}
+
 TEST(SalmaSlam, GivesTheSameResultForAnyNumberOfThreads) {
     const CTemporaryFolder folder;
     for (const std::string threads : {"1", "3"}) {

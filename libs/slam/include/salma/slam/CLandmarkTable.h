@@ -62,6 +62,12 @@ class CLandmarkTable {
                   const Eigen::Vector2d& mean,
                   const Eigen::Matrix2d& covariance);
 
+    void erase(std::size_t index);
+
+    /// Puts back what another table held. \param nextId Above all ids.
+    void restore(std::vector<TLandmark> landmarks, int nextId);
+    int nextId() const { return m_nextId; }
+
     /// Counts a sighting and learns view, wall angle and identity from it.
     void sight(std::size_t index,
                const association::TMeasurement& measurement,
