@@ -18,7 +18,7 @@ struct TRbpfOptions : public config::TStrictOptions<TRbpfOptions> {
     int particles{100};
     double resampleBelow{0.5};  //!< Effective share of the particles.
     int samples{20};            //!< Moves that are tried for a particle (auxiliary).
-    double weightPower{1};      //!< Exponent of the likelihood.
+    double weightPower{0.3};    //!< Exponent of the likelihood.
     int seed{1};
 
     void visit(config::COptionVisitor& v);
