@@ -17,6 +17,7 @@ TRbpfOptions options(int particles, EParticleAlgorithm algorithm = EParticleAlgo
     TRbpfOptions result;
     result.particles = particles;
     result.algorithm = algorithm;
+    result.weightPower = 1;  // the noise of the test world is what its measurements state
     return result;
 }
 
