@@ -66,7 +66,11 @@ CObservation2DRangeScan::Ptr nearestScan(const observations::TLog& log,
 }  // namespace
 
 CPictureWork::CPictureWork(const TSlamConfig& config, const observations::TLog& log)
-    : m_config(config), m_log(log), m_frontEnd(config.seeing), m_lines(config.lines) {}
+    : m_config(config),
+      m_log(log),
+      m_frontEnd(config.seeing),
+      m_lines(config.lines),
+      m_placeString(config.placeString) {}
 
 std::vector<CPictureWork::TJob> CPictureWork::jobs(TSeen& seen) const {
     const auto recorded = recordedStamps(m_log);
@@ -119,7 +123,8 @@ CObservationSalientLandmarks::Ptr CPictureWork::look(const TJob& job,
     view.grey = observations::loadGrey(*job.picture, m_log.imagesFolder);
     view.camera = job.picture->cameraParams;
     view.T_r_c = job.T_r_c;
-    for (const auto& line : m_lines.extract(*job.scan).lines)
+    const laser::TLineResult lines = m_lines.extract(*job.scan);
+    for (const auto& line : lines.lines)
         view.walls.push_back(laser::transformed(line, job.T_picture_scan));
     result = m_frontEnd.process(view);
 
@@ -130,6 +135,7 @@ CObservationSalientLandmarks::Ptr CPictureWork::look(const TJob& job,
     record->camera = view.camera;
     if (job.picture->image.isExternallyStored())
         record->pictureFile = job.picture->image.getExternalStorageFile();
+    record->placeString = m_placeString.describe(*job.scan, lines);
     record->landmarks = result.landmarks;
     return record;
 }

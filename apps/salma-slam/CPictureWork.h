@@ -51,6 +51,7 @@ class CPictureWork {
     const observations::TLog& m_log;
     landmarks::CFrontEnd m_frontEnd;
     laser::CLineExtractor m_lines;
+    laser::CPlaceString m_placeString;
 };
 
 }  // namespace salma::apps

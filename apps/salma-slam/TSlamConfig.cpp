@@ -15,6 +15,7 @@ void forEachSection(CONFIG& c, VISITOR visitor) {
     visitor("lines", c.lines);
     visitor("corners", c.corners);
     visitor("wall_odometry", c.wallOdometry);
+    visitor("place_string", c.placeString);
     visitor("front_end", c.seeing.frontEnd);
     visitor("saliency", c.seeing.saliency);
     visitor("clustering", c.seeing.clustering);

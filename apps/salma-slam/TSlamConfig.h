@@ -5,6 +5,7 @@
 #include <salma/association/TAssociationOptions.h>
 #include <salma/landmarks/CFrontEnd.h>
 #include <salma/laser/CCornerExtractor.h>
+#include <salma/laser/CPlaceString.h>
 #include <salma/laser/CLineExtractor.h>
 #include <salma/laser/CWallOdometry.h>
 #include <salma/slam/CLandmarkMapSetup.h>
@@ -39,6 +40,7 @@ struct TSlamConfig {
     TRunOptions run;
     laser::TLineOptions lines;
     laser::TCornerOptions corners;
+    laser::TPlaceStringOptions placeString;
     laser::TWallOdometryOptions wallOdometry;
     landmarks::TSeeingOptions seeing;
     appearance::TMatcherOptions matcher;

@@ -14,6 +14,7 @@
 #include "CProgressBar.h"
 #include "TPlaceSample.h"
 #include "parallelFor.h"
+#include "stringFigures.h"
 #include "trainNetwork.h"
 #include "writeModel.h"
 
@@ -82,13 +83,15 @@ CPlacesApp::CPlacesApp(CLI::App& app) {
     m_walk = app.add_subcommand("walk", "scans of wandering robots, with and without the filter");
     m_walk->add_option("--evidence", m_evidence, "of the filter (default 1)");
     m_walk->add_option("--surprise", m_surprise, "of the filter (default 0.3)");
-    for (CLI::App* command : {m_test, m_walk})
+    m_strings =
+        app.add_subcommand("strings", "distances of place strings, of one place and others");
+    for (CLI::App* command : {m_test, m_walk, m_strings})
         command->add_option("--kind", m_buildings, "training, validation or test (default)")
             ->check(CLI::IsMember({"training", "validation", "test"}));
-    for (CLI::App* command : {m_train, m_test, m_walk}) {
-        command->add_option("--buildings", m_count, "how many (default: 240, 60, 30)")
+    for (CLI::App* command : {m_train, m_test, m_walk, m_strings}) {
+        command->add_option("--buildings", m_count, "how many (default: 240, 60, 30, 20)")
             ->check(CLI::Range(1, 100000));
-        command->add_option("--seed", m_seed, "of the first (default: 1, 9001, 9701)");
+        command->add_option("--seed", m_seed, "of the first (default: 1, 9001, 9701, 9001)");
         command->add_option("--threads", m_threads, "threads (default 0: one per core)")
             ->check(CLI::Range(0, 1024));
     }
@@ -98,6 +101,7 @@ void CPlacesApp::run(std::ostream& out) {
     if (m_train->parsed()) train(out);
     if (m_test->parsed()) test(out);
     if (m_walk->parsed()) walk(out);
+    if (m_strings->parsed()) strings(out);
 }
 
 void CPlacesApp::train(std::ostream& out) const {
@@ -201,6 +205,11 @@ void CPlacesApp::walk(std::ostream& out) const {
     single.write(out);
     print("with the filter", filtered, out);
     filtered.write(out);
+}
+
+void CPlacesApp::strings(std::ostream& out) const {
+    writeStringFigures(buildingsNamed(m_buildings), m_seed > 0 ? m_seed : 9001,
+                       m_count > 0 ? m_count : 20, out);
 }
 
 }  // namespace salma::bench

@@ -21,10 +21,12 @@ class CPlacesApp {
     void train(std::ostream& out) const;
     void test(std::ostream& out) const;
     void walk(std::ostream& out) const;
+    void strings(std::ostream& out) const;
 
     CLI::App* m_train;
     CLI::App* m_test;
     CLI::App* m_walk;
+    CLI::App* m_strings;
     std::string m_out;
     std::string m_buildings{"test"};
     std::uint32_t m_seed{0};

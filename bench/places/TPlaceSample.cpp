@@ -19,14 +19,6 @@ constexpr double kFromThings = 0.3;  // and this from everything [m]
 constexpr double kTurn = M_PI / 9;   // from an axis of the building
 constexpr int kTries = 4000;
 
-/// The LMS 200 of 1 deg, its scanner at the robot's centre.
-simulator::TLaserOptions laserOptions() {
-    simulator::TLaserOptions options;
-    options.resolution = simulator::EResolution::one;
-    options.x = 0;
-    return options;
-}
-
 class CDraw {
  public:
     explicit CDraw(std::uint32_t seed) : m_engine(seed) {}
@@ -89,11 +81,18 @@ simulator::TBuildingOptions testBuildings() {
     return o;
 }
 
+simulator::TLaserOptions placeLaser() {
+    simulator::TLaserOptions options;
+    options.resolution = simulator::EResolution::one;
+    options.x = 0;
+    return options;
+}
+
 std::vector<TPlaceSample> drawSamples(const simulator::TBuildingOptions& options,
                                       std::uint32_t seed,
                                       std::size_t most) {
     const simulator::CBuilding building(options, seed);
-    const simulator::CLaserModel laser(laserOptions(), building.segments(), seed);
+    const simulator::CLaserModel laser(placeLaser(), building.segments(), seed);
     CDraw draw(seed);
     std::array<std::size_t, laser::kPlaceClasses> ofClass{};
     std::array<std::size_t, simulator::kPlaceDoubts> ofDoubt{};
@@ -117,7 +116,7 @@ std::vector<TPlaceSample> drawWalk(const simulator::TBuildingOptions& options,
                                    std::uint32_t seed,
                                    std::size_t steps) {
     const simulator::CBuilding building(options, seed);
-    const simulator::CLaserModel laser(laserOptions(), building.segments(), seed);
+    const simulator::CLaserModel laser(placeLaser(), building.segments(), seed);
     std::vector<TPlaceSample> samples;
     const auto poses = wander(building, seed, steps);
     for (std::size_t i = 0; i < poses.size(); ++i)

@@ -4,6 +4,7 @@
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <salma/laser/CPlaceFilter.h>
 #include <salma/simulator/CPlaceTruth.h>
+#include <salma/simulator/TSensorOptions.h>
 
 #include <cstdint>
 #include <vector>
@@ -23,6 +24,9 @@ simulator::TBuildingOptions trainingBuildings();
 simulator::TBuildingOptions validationBuildings();
 /// Wider still, for the figures; nothing was chosen by them.
 simulator::TBuildingOptions testBuildings();
+
+/// The LMS 200 of 1 deg in millimetre mode, its scanner at the robot's centre.
+simulator::TLaserOptions placeLaser();
 
 /// Poses drawn evenly over one building, at most `most` of each class and of each doubt.
 std::vector<TPlaceSample> drawSamples(const simulator::TBuildingOptions& options,
