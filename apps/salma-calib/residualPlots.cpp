@@ -83,7 +83,8 @@ void plotResiduals(const TResidualPlot& plot, const std::string& file) {
         << "set xrange [0:" << plot.size.width << "]\nset yrange [" << plot.size.height
         << ":0]\nset title 'fitted, " << fixed(enlarged, 0)
         << " times enlarged, where they were seen'\n"
-        << "plot $arrows using 1:2:3:4 with vectors head size 4,20 filled lw 1 lc rgb '#1f5fd0' "
+        << "plot $arrows using 1:2:3:4 with vectors head size screen 0.005,20 filled lw 1 lc rgb "
+           "'#1f5fd0' "
            "notitle\nunset multiplot\n";
     gnuplot.run(file);
 }

@@ -14,6 +14,7 @@
 #include <sstream>
 
 #include "CSimulatedRig.h"
+#include "tsaiPicture.h"
 
 namespace salma {
 namespace {
@@ -245,6 +246,57 @@ TEST_F(SalmaCalib, LaserCameraNamesFileAndLineOfAMistake) {
     EXPECT_FALSE(fs::exists(out));
 }
 
+TEST_F(SalmaCalib, TsaiFindsACameraAndChecksItAgainstOtherPoints) {
+    const CTemporaryFolder folder;
+    const calibration::TTsaiCamera truth;
+    const std::string image = (folder / "grid.png").string();
+    cv::imwrite(image, calibration::tsaiPicture(truth.K, truth.R, truth.t));
+    std::ostringstream points;  // in mm, counted from the second square
+    for (const auto& X : {Eigen::Vector3d(0.04, 0.06, 0), {0.12, 0.1, 0}, {0.08, 0, 0.12}}) {
+        const Eigen::Vector3d x = truth.K * (truth.R * X + truth.t);
+        points << 1e3 * X.x() - 20 << " " << 1e3 * X.y() << " " << 1e3 * X.z() << " "
+               << x.x() / x.z() << " " << x.y() / x.z() << "\n";
+    }
+    const std::string check = folder.write("points.txt", points.str());
+    const std::string out = (folder / "out").string();
+    const auto result = calib({"tsai", image, "--square-m", "0.02", "--check", check,
+                               "--check-unit-m", "0.001", "--out", out});
+    ASSERT_EQ(result.exitCode, 0) << result.output;
+    EXPECT_NE(result.output.find("check: 3 points, 0."), std::string::npos) << result.output;
+    for (const std::string name : {"report.html", "residuals.png", "grid.png", "points.csv"})
+        EXPECT_GT(fs::file_size(out + "/" + name), 1000u) << name;
+    mrpt::img::TCamera camera;
+    camera.loadFromConfigFile("CAMERA_PARAMS", mrpt::config::CConfigFile(out + "/camera.ini"));
+    EXPECT_NEAR(camera.fx(), 900, 20);
+    EXPECT_EQ(camera.ncols, 800u);
+}
+
+TEST_F(SalmaCalib, TsaiNamesWhatDoesNotServe) {
+    const CTemporaryFolder folder;
+    const std::string no = (folder / "no").string();
+    const auto tsai = [&](const std::string& image, const std::vector<std::string>& more = {}) {
+        std::vector<std::string> all{"tsai", image, "--square-m", "0.02", "--out", no};
+        all.insert(all.end(), more.begin(), more.end());
+        return calib(all);
+    };
+    const std::string empty = (folder / "empty.png").string();
+    cv::imwrite(empty, cv::Mat(300, 400, CV_8U, cv::Scalar(100)));
+    expectError(tsai(empty), 1, empty + ": only 0 corners hang together in a grid; 28 are needed");
+    expectError(tsai(images()[0]), 1, "are not of two boards at a right angle");
+    const calibration::TTsaiCamera truth;
+    const std::string good = (folder / "grid.png").string();
+    cv::imwrite(good, calibration::tsaiPicture(truth.K, truth.R, truth.t));
+    const std::string cut = folder.write("cut.txt", "20 160 0 860 1320\n20 160 0 8");
+    expectError(tsai(good, {"--check", cut}), 1, cut + ":2: has 4 numbers, not x y z u v");
+    const std::string none = folder.write("none.txt", "# nothing\n");
+    expectError(tsai(good, {"--check", none}), 1, none + ": holds no points");
+    EXPECT_FALSE(fs::exists(no));
+    expectError(calib({"tsai"}), 2, "IMAGE is required");
+    expectError(calib({"tsai", "a.png"}), 2, "--out is required");
+    expectError(calib({"tsai", "a.png", "--out", "x"}), 2, "--square-m");
+    expectError(calib({"tsai", "a.png", "--out", "x", "--square-m", "nan"}), 2, "--square-m");
+}
+
 TEST_F(SalmaCalib, RefusesMisuseWithCodeTwo) {
     const std::vector<std::string> end{"--square-m", "0.1", "--out", "x"};
     const auto camera = [&](std::vector<std::string> arguments) {
@@ -283,7 +335,7 @@ TEST_F(SalmaCalib, RefusesMisuseWithCodeTwo) {
 
 TEST_F(SalmaCalib, PrintsItsOptionsAndReadsThemBack) {
     const CTemporaryFolder folder;
-    for (const std::string command : {"camera", "laser-camera"}) {
+    for (const std::string command : {"camera", "tsai", "laser-camera"}) {
         const auto printed = calib({command, "--print-config"});
         ASSERT_EQ(printed.exitCode, 0) << printed.output;
         const std::string ini = folder.write("own.ini", printed.output);
@@ -294,8 +346,10 @@ TEST_F(SalmaCalib, PrintsItsOptionsAndReadsThemBack) {
 }
 
 TEST_F(SalmaCalib, BeginsItsHelpWithExamples) {
-    for (const std::vector<std::string>& arguments :
-         {std::vector<std::string>{"--help"}, {"camera", "--help"}, {"laser-camera", "--help"}}) {
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
+                                                      {"camera", "--help"},
+                                                      {"tsai", "--help"},
+                                                      {"laser-camera", "--help"}}) {
         const auto result = calib(arguments);
         EXPECT_EQ(result.exitCode, 0);
         EXPECT_EQ(result.output.find("Examples:\n  salma-calib "), 0u) << result.output;

@@ -190,8 +190,7 @@ TEST(LaserCamera, FitsRealBoardsThatWereLeftOutAsWellAsTheOthers) {
         views.push_back({name, *points});
         pairs.push_back({name, *points, scans[i]});
     }
-    const auto camera =
-        CCameraCalibrator().calibrate(board.points(), views, {640, 480}).camera;
+    const auto camera = CCameraCalibrator().calibrate(board.points(), views, {640, 480}).camera;
     const auto result = CLaserCameraCalibrator().calibrate(camera, board, pairs);
     EXPECT_EQ(result.usedPairs(), 31u);
     EXPECT_LT(result.medianHeldOut(), 1.2 * result.medianFitted());
