@@ -20,42 +20,15 @@
 
 #include "CPosterViews.h"
 #include "CScores.h"
+#include "pictureSets.h"
 
 namespace {
 
 using namespace salma;
 
-const std::string kPhotographs = "/usr/share/doc/opencv-doc/examples/data/";
+using bench::kPosterHeight;
+using bench::kWalls;
 
-/// Pictures that hang on the walls: of that folder, or below SALMA_DATA_DIR.
-const std::map<std::string, std::vector<std::string>> kSets = {
-    // on these, options and gates were chosen
-    {"tuning",
-     {"posters/MonaLisa.png", "posters/GreatWave.png", "posters/Arcimboldo_Spring.png",
-      "posters/KazusaSeaRoute.png", "posters/HokusaiPoppies.png", "posters/AlbrechtDurer.png",
-      "posters/kodak01.png", "posters/kodak05.png", "posters/kodak09.png",
-      "posters/Michelangelo_Pieta.png"}},
-    // these were looked at once all but the table of ratios was fixed
-    {"report",
-     {"posters/Arcimboldo_Librarian.png", "posters/EjiriSuruga.png",
-      "posters/HiroshigeHorsePrawns.png", "posters/HokusaiBridge.png",
-      "posters/HokusaiOiranKamuro.png", "posters/HiroshigeInokashiraSnow.png",
-      "posters/kodak03.png", "posters/HokusaiWomanHoldingFan.png", "posters/kodak07.png",
-      "posters/kodak11.png"}},
-    // these after that; the corridor's pictures show one corridor
-    {"last",
-     {"homography/graf/img1.ppm", "homography/boat/img1.pgm", "homography/churchill/1.png",
-      "corridor_images/1.jpg", "corridor_images/12.jpg", "corridor_images/24.jpg",
-      "corridor_images/36.jpg"}},
-    // these after views were refused less often; photographs of Debian's opencv-doc
-    {"held-out",
-     {kPhotographs + "fruits.jpg", kPhotographs + "home.jpg", kPhotographs + "butterfly.jpg",
-      kPhotographs + "baboon.jpg", kPhotographs + "building.jpg", kPhotographs + "messi5.jpg",
-      kPhotographs + "squirrel_cls.jpg", kPhotographs + "board.jpg", kPhotographs + "stuff.jpg",
-      kPhotographs + "starry_night.jpg"}}};
-const std::array<const char*, 4> kWalls = {"plaster", "brick", "wood", "plain"};
-
-constexpr double kPosterHeight = 0.6;      // [m]
 constexpr std::size_t kMinKeypoints = 12;  // as [front_end] has it
 constexpr std::size_t kOtherStep = 4;      // every fourth pair of views of different posters
 constexpr int kAngleBins = 5;
@@ -98,7 +71,7 @@ class CStopwatch {
 class CRecognition {
  public:
     explicit CRecognition(const TArguments& arguments)
-        : m_arguments(arguments), m_names(kSets.at(arguments.set)) {}
+        : m_arguments(arguments), m_names(bench::pictureSet(arguments.set)) {}
 
     void run() {
         for (std::size_t i = 0; i < m_names.size(); ++i) look(i);
@@ -116,14 +89,10 @@ class CRecognition {
     }
 
  private:
-    static std::string fileOf(const std::string& name) {
-        return name[0] == '/' ? name : std::string(SALMA_DATA_DIR) + "/" + name;
-    }
-
     void look(std::size_t poster) {
         const bench::CPosterViews views(
-            fileOf(m_names[poster]), kWalls[poster % kWalls.size()], kPosterHeight,
-            1000 * m_arguments.seed + static_cast<std::uint32_t>(poster));
+            bench::pictureFile(SALMA_DATA_DIR, m_names[poster]), kWalls[poster % kWalls.size()],
+            kPosterHeight, 1000 * m_arguments.seed + static_cast<std::uint32_t>(poster));
         for (std::uint32_t i = 0; i < m_arguments.views; ++i) {
             const auto view = m_watch.time("render", [&] { return views.view(i); });
             m_sights.push_back({described(view), poster, view.incidence});
@@ -352,8 +321,8 @@ class CRecognition {
 int main(int argc, char** argv) {
     TArguments arguments;
     CLI::App app("region score, keypoint score and log likelihood ratio of simulated views");
-    app.add_option("--set", arguments.set, "of pictures: tuning, report, last or held-out")
-        ->check(CLI::IsMember({"tuning", "report", "last", "held-out"}))
+    app.add_option("--set", arguments.set, "of pictures")
+        ->check(CLI::IsMember(bench::pictureSetNames()))
         ->capture_default_str();
     app.add_option("--views", arguments.views, "of each poster")->capture_default_str();
     app.add_option("--seed", arguments.seed, "of the views")->capture_default_str();

@@ -11,7 +11,21 @@
 namespace salma::appearance {
 namespace {
 
-constexpr int kSmallest = 8;  // smaller pictures hold no extremum of any scale [px]
+constexpr int kSmallest = 8;      // smaller pictures hold no extremum of any scale [px]
+constexpr std::size_t kFew = 12;  // keypoints; with fewer, a dim patch is looked at once more
+constexpr double kDim = 30;       // standard deviation below which a patch is dim [grey levels]
+constexpr double kNoise = 5;      // and below which it holds little but noise [grey levels]
+
+/// A dim picture brought to kDim; empty for others.
+cv::Mat brightened(const cv::Mat& grey) {
+    cv::Scalar mean, deviation;
+    cv::meanStdDev(grey, mean, deviation);
+    if (!(deviation[0] >= kNoise && deviation[0] < kDim)) return {};
+    const double gain = kDim / deviation[0];
+    cv::Mat out;
+    grey.convertTo(out, -1, gain, 127.5 - gain * mean[0]);
+    return out;
+}
 
 std::vector<cv::KeyPoint> strongest(std::vector<cv::KeyPoint> points, int limit) {
     const auto order = [](const cv::KeyPoint& p) {
@@ -55,7 +69,11 @@ CPatchDescriptor::CPatchDescriptor(const TDescriptorOptions& options) : m_option
 std::vector<observations::TKeypoint> CPatchDescriptor::describe(
     const observations::TPatch& patch) const {
     if (patch.picture.isEmpty()) return {};
-    return describe(patch.picture.asCvMatRef(), patch.pixelsPerMetre);
+    const cv::Mat grey = patch.picture.asCvMatRef();
+    auto keypoints = describe(grey, patch.pixelsPerMetre);
+    if (keypoints.size() >= kFew) return keypoints;
+    const cv::Mat bright = brightened(grey);
+    return bright.empty() ? keypoints : describe(bright, patch.pixelsPerMetre);
 }
 
 std::vector<observations::TKeypoint> CPatchDescriptor::describe(const cv::Mat& grey,

@@ -15,11 +15,20 @@ namespace salma::appearance {
 namespace {
 
 constexpr double kOpposite = mrpt::DEG2RAD(130.0);  // 65 deg to either side
+// Highest score beside plenty of keypoints, as a line over the keypoint score. Equal prints stay
+// below it; prints that are only laid out alike would not.
+constexpr double kRegionsAlone = 0.2, kWithKeypoints = 2;
 
 /// Direction of the robot from the patch, 0 straight in front of it [rad].
 double viewOf(const observations::TPatch& patch) {
     const auto& pose = patch.pose.mean;
     return mrpt::math::wrapToPi(std::atan2(-pose.y(), -pose.x()) - (pose.yaw() - M_PI_2));
+}
+
+bool hasPose(const observations::TPatch& patch) {
+    const auto& p = patch.pose.mean;
+    return std::isfinite(p.x() + p.y() + p.z() + p.yaw() + p.pitch() + p.roll()) &&
+           patch.pose.cov.asEigen().allFinite();
 }
 
 /// Regions are comparable where both rectangles are nearly the same piece of wall: their contrast
@@ -136,6 +145,7 @@ void CPatchMatcher::matchRegionsOf(const observations::TPatch& a,
 TPatchMatch CPatchMatcher::match(const observations::TPatch& a,
                                  const observations::TPatch& b) const {
     TPatchMatch out;
+    if (!hasPose(a) || !hasPose(b)) return out;
     out.viewDifference = std::abs(mrpt::math::wrapToPi(viewOf(a) - viewOf(b)));
     out.textureDistance = textureDistance(a.texture, b.texture);
     const std::size_t fewer = std::min(a.keypoints.size(), b.keypoints.size());
@@ -144,6 +154,9 @@ TPatchMatch CPatchMatcher::match(const observations::TPatch& a,
     const bool withRegions = comparable(a, b, m_regionOptions.sameExtent);
     if (withRegions) matchRegionsOf(a, b, out);
     out.score = withRegions ? (out.keypointScore + out.regionScore) / 2 : out.keypointScore;
+    // Plenty of keypoints and hardly one agrees: laid out alike, as mirrored, no more.
+    if (fewer >= static_cast<std::size_t>(m_options.fullScoreKeypoints))
+        out.score = std::min(out.score, kRegionsAlone + kWithKeypoints * out.keypointScore);
     if (telling) out.evidence = withRegions ? EEvidence::both : EEvidence::keypoints;
     out.logLikelihoodRatio = logLikelihoodRatio(out.score, out.evidence);
     return out;

@@ -148,6 +148,7 @@ std::optional<double> textureDistance(const std::vector<float>& a, const std::ve
     double common = 0;
     for (std::size_t i = 0; i < a.size(); ++i)
         common += std::sqrt(std::max(0.0, static_cast<double>(a[i]) * b[i]));
+    if (!std::isfinite(common)) return std::nullopt;
     return std::sqrt(std::clamp(1 - common, 0.0, 1.0));
 }
 

@@ -63,6 +63,23 @@ TEST(CPatchDescriptor, KeepsTheStrongestInTheSameOrderEachTime) {
     }
 }
 
+TEST(CPatchDescriptor, LooksTwiceAtADimPatch) {
+    cv::Mat dim;
+    noise(200, 200).convertTo(dim, CV_8U, 0.3, 20);
+    observations::TPatch patch;
+    patch.width = patch.height = 2;
+    patch.pixelsPerMetre = 100;
+    patch.picture = mrpt::img::CImage(dim, mrpt::img::DEEP_COPY);
+    EXPECT_LT(CPatchDescriptor().describe(dim, 100).size(), 12U);
+    EXPECT_GT(CPatchDescriptor().describe(patch).size(), 20U);
+    // one colour and the camera's noise
+    cv::Mat plain(200, 200, CV_8U);
+    cv::RNG random(1);
+    random.fill(plain, cv::RNG::NORMAL, 80, 2);
+    patch.picture = mrpt::img::CImage(plain, mrpt::img::DEEP_COPY);
+    EXPECT_TRUE(CPatchDescriptor().describe(patch).empty());
+}
+
 TEST(CPatchDescriptor, FindsNothingWhereThereIsNothing) {
     EXPECT_TRUE(CPatchDescriptor().describe(observations::TPatch()).empty());
     EXPECT_TRUE(CPatchDescriptor().describe(cv::Mat(), 100).empty());

@@ -254,6 +254,59 @@ TEST(CPatchMatcher, SaysNothingByRegionsThatAreNone) {
     }
 }
 
+/// With regions and keypoints, so that every part of the matcher has something to say.
+TPatch fullPatch() {
+    TPatch patch = withRegions(3, 0, 0);
+    patch.keypoints = randomPatch(3, 40).keypoints;
+    patch.texture.assign(140, 1 / 140.0F);
+    return patch;
+}
+
+TEST(CPatchMatcher, NeverSaysAThingThatIsNoNumber) {
+    const double nan = std::nan(""), infinite = 1e300 * 1e300;
+    const TPatch good = fullPatch();
+    std::vector<TPatch> bad(12, good);
+    bad[0].pose.mean = mrpt::poses::CPose3D(nan, 0, 1, 0, 0, M_PI_2);
+    bad[1].pose.mean = mrpt::poses::CPose3D(2, 0, 1, nan, 0, M_PI_2);
+    bad[2].pose.cov(0, 3) = nan;
+    bad[3].pose.cov(5, 5) = infinite;
+    for (auto& k : bad[4].keypoints) k.x = nan;
+    for (auto& k : bad[5].keypoints) k.scale = 0;
+    for (auto& k : bad[6].keypoints) k.angle = infinite;
+    for (auto& r : bad[7].regions) r.x = nan;
+    bad[8].width = bad[8].height = 0;
+    bad[9].width = nan;
+    bad[10].texture.assign(140, static_cast<float>(nan));
+    bad[11].texture.assign(7, 0.1F);  // of another version
+    bad.push_back(TPatch());
+    for (std::size_t i = 0; i < bad.size(); ++i)
+        for (const auto& [a, b] :
+             {std::pair(good, bad[i]), std::pair(bad[i], good), std::pair(bad[i], bad[i])}) {
+            const auto match = CPatchMatcher().match(a, b);
+            EXPECT_TRUE(std::isfinite(match.score + match.logLikelihoodRatio + match.keypointScore +
+                                      match.regionScore + match.viewDifference))
+                << i;
+            EXPECT_TRUE(!match.textureDistance || std::isfinite(*match.textureDistance)) << i;
+            EXPECT_TRUE(!match.relative || match.relative->covariance.allFinite()) << i;
+            if (i < 4) {
+                EXPECT_EQ(match.logLikelihoodRatio, 0) << i << " says nothing";
+                EXPECT_FALSE(match.relative) << i;
+            }
+        }
+}
+
+TEST(CPatchMatcher, DoesNotTakeALayoutForAPrint) {
+    // the regions of one print, the keypoints of two
+    TPatch a = fullPatch(), b = fullPatch();
+    b.keypoints = randomPatch(4, 40).keypoints;
+    const auto match = CPatchMatcher().match(a, b);
+    EXPECT_GT(match.regionScore, 0.9);
+    EXPECT_EQ(match.keypointScore, 0);
+    EXPECT_LT(match.logLikelihoodRatio, -1);
+    b.keypoints.resize(12);  // too few to contradict
+    EXPECT_GT(CPatchMatcher().match(a, b).logLikelihoodRatio, 1);
+}
+
 TEST(CPatchMatcher, HoldsHalfOfTheKeypointsForEnoughBesideAsManyRegions) {
     const auto enough = [](std::size_t keypoints, std::size_t regions) {
         TPatch patch = randomPatch(1, keypoints);

@@ -111,7 +111,7 @@ TEST(CRectifier, KeepsTheExtentOfWhatReachesALittleOutOfThePicture) {
     EXPECT_GT(patch->quad[1].x, 640);
     const cv::Mat grey = patch->picture.asCvMatRef();
     const int seen = cvRound(0.95 * grey.cols);  // then the last pixel is repeated
-    for (int i = 0; i < 6; ++i)  // through the middles of the squares
+    for (int i = 0; i < 6; ++i)                  // through the middles of the squares
         for (int c = seen + 3; c < grey.cols; ++c) {
             const int r = (2 * i + 1) * grey.rows / 12;
             EXPECT_NEAR(grey.at<std::uint8_t>(r, c), grey.at<std::uint8_t>(r, seen + 2), 2);

@@ -28,6 +28,7 @@ class CPatchDescriptor {
     explicit CPatchDescriptor(const TDescriptorOptions& options = {});
 
     /// Keypoints of `patch.picture`, strongest first; empty for a patch without picture or content.
+    /// A dim patch that gives few is looked at again with more contrast.
     std::vector<observations::TKeypoint> describe(const observations::TPatch& patch) const;
 
     /** The same for any picture.

@@ -100,8 +100,11 @@ struct TPatchMatch {
  * Regions: pairs by Mahalanobis distance of (x, y, log s) after the best common shift, one to one;
  * score = matches / mean count, each over the most salient regions. Regions agree from a score on
  * that falls with the angle between the two views.
+ * Where both patches have `full_score_keypoints` or more, the score is at most 0.2 + 2 keypoint
+ * scores, however well the regions agree: layouts repeat, details do not.
  * Without regions, or if the extents of the patches differ much, keypoints alone decide.
- * A patch with fewer than `min_matches` keypoints says nothing: log likelihood ratio 0.
+ * A patch with fewer than `min_matches` keypoints, or whose pose or covariance is not finite, says
+ * nothing: log likelihood ratio 0. No result is ever NaN.
  *
  * How the tables were measured, and what they are worth: docs/recognition.md.
  * Source: D. Lowe, IJCV 60(2), 2004 (ratio test); K.-L. Ho, transfer report, Oxford 2004, section

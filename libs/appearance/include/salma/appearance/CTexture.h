@@ -57,8 +57,8 @@ class CTexture {
     TTextureOptions m_options;
 };
 
-/** Hellinger distance of two histograms, 0 for equal ones to 1; nothing if one is empty or they
- * are of different sizes. */
+/** Hellinger distance of two histograms, 0 for equal ones to 1; nothing if one is empty or not
+ * finite or they are of different sizes. */
 std::optional<double> textureDistance(const std::vector<float>& a, const std::vector<float>& b);
 
 }  // namespace salma::appearance
