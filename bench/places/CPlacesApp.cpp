@@ -14,6 +14,7 @@
 #include "CProgressBar.h"
 #include "TPlaceSample.h"
 #include "parallelFor.h"
+#include "revisitFigures.h"
 #include "stringFigures.h"
 #include "trainNetwork.h"
 #include "writeModel.h"
@@ -85,13 +86,18 @@ CPlacesApp::CPlacesApp(CLI::App& app) {
     m_walk->add_option("--surprise", m_surprise, "of the filter (default 0.3)");
     m_strings =
         app.add_subcommand("strings", "distances of place strings, of one place and others");
-    for (CLI::App* command : {m_test, m_walk, m_strings})
+    m_revisit = app.add_subcommand("revisit", "P(outside the map) in half-mapped buildings");
+    m_revisit->add_option("--plot", m_plot, "picture to draw");
+    m_revisit->add_option("--evidence", m_revisitOptions.evidence, "of the model");
+    m_revisit->add_option("--enter", m_revisitOptions.enter, "of the model");
+    m_revisit->add_option("--leave", m_revisitOptions.leave, "of the model");
+    for (CLI::App* command : {m_test, m_walk, m_strings, m_revisit})
         command->add_option("--kind", m_buildings, "training, validation or test (default)")
             ->check(CLI::IsMember({"training", "validation", "test"}));
-    for (CLI::App* command : {m_train, m_test, m_walk, m_strings}) {
-        command->add_option("--buildings", m_count, "how many (default: 240, 60, 30, 20)")
+    for (CLI::App* command : {m_train, m_test, m_walk, m_strings, m_revisit}) {
+        command->add_option("--buildings", m_count, "how many (default: 240, 60, 30, 20, 30)")
             ->check(CLI::Range(1, 100000));
-        command->add_option("--seed", m_seed, "of the first (default: 1, 9001, 9701, 9001)");
+        command->add_option("--seed", m_seed, "of the first (default: 1, 9001, 9701, 9001, 9801)");
         command->add_option("--threads", m_threads, "threads (default 0: one per core)")
             ->check(CLI::Range(0, 1024));
     }
@@ -102,6 +108,7 @@ void CPlacesApp::run(std::ostream& out) {
     if (m_test->parsed()) test(out);
     if (m_walk->parsed()) walk(out);
     if (m_strings->parsed()) strings(out);
+    if (m_revisit->parsed()) revisit(out);
 }
 
 void CPlacesApp::train(std::ostream& out) const {
@@ -210,6 +217,20 @@ void CPlacesApp::walk(std::ostream& out) const {
 void CPlacesApp::strings(std::ostream& out) const {
     writeStringFigures(buildingsNamed(m_buildings), m_seed > 0 ? m_seed : 9001,
                        m_count > 0 ? m_count : 20, out);
+}
+
+void CPlacesApp::revisit(std::ostream& out) const {
+    const auto prior = priorOfBuildings(trainingBuildings(), 1, 40);
+    TRevisitTrial trial;
+    trial.options = m_revisitOptions;
+    const auto buildings = forBuildings(
+        m_seed > 0 ? m_seed : 9801, m_count > 0 ? m_count : 30, m_threads, [&](std::uint32_t s) {
+            return walkHalfMapped(buildingsNamed(m_buildings), s, prior, trial);
+        });
+    std::vector<TRevisitStep> steps;
+    for (const auto& some : buildings) steps.insert(steps.end(), some.begin(), some.end());
+    writeRevisitFigures(steps, out);
+    if (!m_plot.empty()) plotRevisit(steps, m_plot);
 }
 
 }  // namespace salma::bench

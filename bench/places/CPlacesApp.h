@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <salma/laser/CRevisitModel.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <ostream>
@@ -22,11 +24,14 @@ class CPlacesApp {
     void test(std::ostream& out) const;
     void walk(std::ostream& out) const;
     void strings(std::ostream& out) const;
+    void revisit(std::ostream& out) const;
 
     CLI::App* m_train;
     CLI::App* m_test;
     CLI::App* m_walk;
     CLI::App* m_strings;
+    CLI::App* m_revisit;
+    std::string m_plot;
     std::string m_out;
     std::string m_buildings{"test"};
     std::uint32_t m_seed{0};
@@ -34,6 +39,7 @@ class CPlacesApp {
     int m_threads{0};
     double m_evidence{1};
     double m_surprise{0.3};
+    laser::TRevisitOptions m_revisitOptions;
 };
 
 }  // namespace salma::bench

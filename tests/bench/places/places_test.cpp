@@ -5,6 +5,7 @@
 
 #include "CConfusion.h"
 #include "TPlaceSample.h"
+#include "revisitFigures.h"
 #include "trainNetwork.h"
 #include "writeModel.h"
 
@@ -63,6 +64,21 @@ TEST(writeModel, WritesTheShippedModelAsItIs) {
     EXPECT_NE(text.str().find("kPlaceLayers{97, 64, 32, 10}"), std::string::npos);
     EXPECT_EQ(text.str().find("nan"), std::string::npos);
     EXPECT_LT(text.str().size(), 80000u);
+}
+
+TEST(CRevisitModel, IsMostlyRightInHalfMappedBuildings) {
+    const auto prior = priorOfBuildings(trainingBuildings(), 1, 10);
+    std::size_t right = 0, all = 0;
+    double brier = 0;
+    for (std::uint32_t seed = 7101; seed <= 7104; ++seed)
+        for (const TRevisitStep& s : walkHalfMapped(testBuildings(), seed, prior, {})) {
+            right += (s.outside > 0.5) == s.truth ? 1 : 0;
+            brier += (s.outside - s.truth) * (s.outside - s.truth);
+            ++all;
+        }
+    EXPECT_EQ(all, 4u * 10u * 60u);
+    EXPECT_GT(right, all * 3 / 4);
+    EXPECT_LT(brier / static_cast<double>(all), 0.15);
 }
 
 TEST(CConfusion, WeighsTheClassesAlike) {
