@@ -91,6 +91,13 @@ CPlacesApp::CPlacesApp(CLI::App& app) {
     m_revisit->add_option("--evidence", m_revisitOptions.evidence, "of the model");
     m_revisit->add_option("--enter", m_revisitOptions.enter, "of the model");
     m_revisit->add_option("--leave", m_revisitOptions.leave, "of the model");
+    m_strip = app.add_subcommand("strip", "draws the classes along the way of a real log");
+    m_strip->add_option("LOG", m_stripOptions.log, "CARMEN log with corrected poses")->required();
+    m_strip->add_option("--out", m_stripOptions.picture, "picture to draw")->required();
+    m_strip->add_option("--first", m_stripOptions.first, "scan to begin with (default 0)")
+        ->check(CLI::Range(0, 100000000));
+    m_strip->add_option("--count", m_stripOptions.count, "how many (default: to the end)")
+        ->check(CLI::Range(1, 100000000));
     for (CLI::App* command : {m_test, m_walk, m_strings, m_revisit})
         command->add_option("--kind", m_buildings, "training, validation or test (default)")
             ->check(CLI::IsMember({"training", "validation", "test"}));
@@ -109,6 +116,7 @@ void CPlacesApp::run(std::ostream& out) {
     if (m_walk->parsed()) walk(out);
     if (m_strings->parsed()) strings(out);
     if (m_revisit->parsed()) revisit(out);
+    if (m_strip->parsed()) drawStrip(m_stripOptions, out);
 }
 
 void CPlacesApp::train(std::ostream& out) const {

@@ -8,6 +8,8 @@
 #include <ostream>
 #include <string>
 
+#include "realStrip.h"
+
 namespace salma::bench {
 
 /// Command line of the program `place-classes`.
@@ -31,7 +33,9 @@ class CPlacesApp {
     CLI::App* m_walk;
     CLI::App* m_strings;
     CLI::App* m_revisit;
+    CLI::App* m_strip;
     std::string m_plot;
+    TStrip m_stripOptions;
     std::string m_out;
     std::string m_buildings{"test"};
     std::uint32_t m_seed{0};

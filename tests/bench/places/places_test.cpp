@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
+#include <salma/observations/readCarmenLog.h>
 
 #include <sstream>
 
 #include "CConfusion.h"
+#include "CTemporaryFolder.h"
 #include "TPlaceSample.h"
 #include "revisitFigures.h"
 #include "trainNetwork.h"
@@ -79,6 +81,24 @@ TEST(CRevisitModel, IsMostlyRightInHalfMappedBuildings) {
     EXPECT_EQ(all, 4u * 10u * 60u);
     EXPECT_GT(right, all * 3 / 4);
     EXPECT_LT(brier / static_cast<double>(all), 0.15);
+}
+
+TEST(PlaceClassifier, KnowsTheCorridorOfARealCastle) {
+    SALMA_NEED_DATA(file, "laser/belgioioso-corrected.log.gz");
+    const laser::CPlaceClassifier classifier;
+    std::size_t corridor = 0, all = 0;
+    for (const auto& scan : observations::readCarmenLog(file).scans) {
+        const auto p = classifier.classify(*scan.scan);
+        ASSERT_TRUE(p);
+        // the plain part of the only corridor, seen along it
+        if (!(scan.odometry.x() > 2 && scan.odometry.x() < 7 && scan.odometry.y() > 6 &&
+              scan.odometry.y() < 24))
+            continue;
+        ++all;
+        corridor += mostLikely(*p) == EPlaceClass::corridor ? 1 : 0;
+    }
+    EXPECT_GT(all, 10u);
+    EXPECT_GE(corridor, all * 9 / 10);
 }
 
 TEST(CConfusion, WeighsTheClassesAlike) {
