@@ -182,7 +182,8 @@ std::unique_ptr<slam::CSlamBackend> CSlamApp::createBackend() const {
         m_config.ekf, m_config.association,
         [matcher](const observations::TPatch& a, const observations::TPatch& b) {
             return matcher->match(a, b).logLikelihoodRatio;
-        });
+        },
+        m_config.tracking);
 }
 
 void CSlamApp::run() {
@@ -231,7 +232,7 @@ std::string CSlamApp::summary() const {
     text << m_record.trajectory.size() << " steps, " << salient << " salient landmarks, "
          << m_record.landmarks.size() - static_cast<std::size_t>(salient) << " corners; paired "
          << counts.paired << ", new " << counts.created << ", deferred " << counts.deferred
-         << ", clutter " << counts.clutter << "\n";
+         << ", clutter " << counts.clutter << ", provisional " << counts.provisional << "\n";
     if (m_truth) text << accuracy();
     text << "report " << m_arguments.out << "/report.html\n";
     return text.str();

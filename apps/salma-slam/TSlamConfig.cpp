@@ -30,6 +30,7 @@ void forEachSection(CONFIG& c, VISITOR visitor) {
     visitor("matcher", c.matcher);
     visitor("region_matcher", c.regionMatcher);
     visitor("association", c.association);
+    visitor("tracking", c.tracking);
     visitor("ekf", c.ekf);
     visitor("rbpf", c.rbpf);
     visitor("landmark_map", c.landmarkMap);

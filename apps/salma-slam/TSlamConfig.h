@@ -4,6 +4,7 @@
 #include <salma/appearance/CPatchMatcher.h>
 #include <salma/association/TAssociationOptions.h>
 #include <salma/landmarks/CFrontEnd.h>
+#include <salma/landmarks/CWideBaselineTracker.h>
 #include <salma/laser/CCornerExtractor.h>
 #include <salma/laser/CPlaceString.h>
 #include <salma/laser/CLineExtractor.h>
@@ -46,6 +47,7 @@ struct TSlamConfig {
     appearance::TMatcherOptions matcher;
     appearance::TRegionMatchOptions regionMatcher;
     association::TAssociationOptions association;
+    landmarks::TTrackingOptions tracking;
     slam::TEkfOptions ekf;
     slam::TRbpfOptions rbpf;
     slam::TLandmarkMapOptions landmarkMap;

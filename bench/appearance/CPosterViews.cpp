@@ -13,7 +13,6 @@ using appearance::CWallView;
 using appearance::TWallRectangle;
 using mrpt::poses::CPose3D;
 
-constexpr double kCentreHeight = 1.45;   // of the poster [m]
 constexpr double kLeastResolution = 40;  // [px/m]
 
 double widthOf(const std::string& texture, double height) {
@@ -43,7 +42,7 @@ simulator::TWorld worldWith(const std::string& texture,
     poster.name = "it";
     poster.wall = wall.name;
     poster.at = 8;
-    poster.centreHeight = kCentreHeight;
+    poster.centreHeight = CPosterViews::kCentreHeight;
     poster.width = width;
     poster.height = height;
     poster.texture = texture;
@@ -90,10 +89,19 @@ CPosterViews::CPosterViews(const std::string& texture,
                            const std::string& wall,
                            double height,
                            std::uint32_t seed)
-    : m_width(widthOf(texture, height)),
+    : CPosterViews(worldWith(texture, wall, widthOf(texture, height), height),
+                   widthOf(texture, height),
+                   height,
+                   seed) {}
+
+CPosterViews::CPosterViews(const simulator::TWorld& scene,
+                           double width,
+                           double height,
+                           std::uint32_t seed)
+    : m_width(width),
       m_height(height),
       m_seed(seed),
-      m_description(worldWith(texture, wall, m_width, height)),
+      m_description(scene),
       m_world(m_description),
       m_camera(m_description.camera),
       m_renderer(m_world, m_camera),
@@ -144,7 +152,7 @@ TPosterView CPosterViews::view(std::uint32_t index) const {
         const cv::Mat picture = m_sensor.develop(m_renderer.render(robot + onRobot), {}, index);
         cv::Mat grey;
         cv::cvtColor(picture, grey, cv::COLOR_BGR2GRAY);
-        return {grey, truth, seen, place, cut, distance, incidence, draws};
+        return {grey, truth, seen, place, cut, robot, distance, incidence, draws};
     }
 }
 

@@ -29,6 +29,7 @@ struct TPosterView {
     appearance::CWallView seen;
     appearance::TWallRectangle place;  //!< Of the poster, in coordinates of `truth`.
     appearance::TWallRectangle cut;    //!< What is cut out, in coordinates of `seen`.
+    mrpt::poses::CPose3D robot;        //!< T_w_r, as the world has it.
     double distance{0};                //!< From camera to poster [m].
     double incidence{0};               //!< Signed: positive from the poster's left [rad].
     int draws{1};                      //!< Views drawn until one showed the whole poster.
@@ -44,6 +45,12 @@ class CPosterViews {
                  const std::string& wall,
                  double height,
                  std::uint32_t seed);
+
+    /** Views of a place in any scene whose wall y = 0 faces towards smaller y.
+     * \param width, height Of the rectangle around (0, 0, kCentreHeight) that must be in view. */
+    CPosterViews(const simulator::TWorld& scene, double width, double height, std::uint32_t seed);
+
+    static constexpr double kCentreHeight = 1.45;  //!< Of the poster [m].
 
     TPosterView view(std::uint32_t index) const;
 

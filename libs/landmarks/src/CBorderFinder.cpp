@@ -6,12 +6,20 @@
 #include <utility>
 
 #include "CLineSupport.h"
+#include "CStripHistograms.h"
 
 namespace salma::landmarks {
 namespace {
 
 /// A side's continuation is judged over this length, and a side's outside over this width [m].
 constexpr double kBeyond = 0.12, kOutsideFrom = 0.02, kOutsideTo = 0.05;
+
+/// Strips inside and outside of a side are as wide as a course of bricks [m].
+constexpr double kStrip = 0.08;
+
+/// Mean grey level for which `contrast` is meant; in darker pictures edges are weaker, down to what
+/// the camera's noise makes of a wall.
+constexpr double kBrightness = 110, kLeastShare = 0.4;
 
 /// A region may be centred on the frame [m].
 constexpr double kRim = 0.04;
@@ -34,7 +42,8 @@ cv::Range rangeIn(double from, double to, int size) {
             std::clamp(static_cast<int>(std::ceil(to)), 0, size - 1) + 1};
 }
 
-/// Share of a side that shows an edge less that of its continuation beyond both corners.
+/// How much more of a side shows an edge than of its continuation beyond both corners, as a share
+/// of what more there could be: lines that go on are no sides, whatever the texture of the wall.
 double closedSupport(const CLineSupport& lines,
                      int line,
                      const cv::Range& side,
@@ -43,19 +52,21 @@ double closedSupport(const CLineSupport& lines,
     const int length = std::max(4, static_cast<int>(kBeyond * pixelsPerMetre));
     const double before = lines.share(line, {side.start - skip - length, side.start - skip});
     const double after = lines.share(line, {side.end + skip, side.end + skip + length});
-    return lines.share(line, side) - (before + after) / 2;
+    const double beside = (before + after) / 2;
+    if (!(beside < 1)) return 0;
+    return (lines.share(line, side) - beside) / (1 - beside);
 }
 
 struct TCandidate {
     cv::Rect rectangle;
-    double support;
+    double quality;  //!< Support of its weakest side times the separation of inside and outside.
 };
 
-/// The largest of the rectangles with enough support.
+/// The largest of the rectangles that are good enough.
 std::optional<cv::Rect2d> largestOf(const std::vector<TCandidate>& candidates, double enough) {
     const TCandidate* winner = nullptr;
     for (const auto& c : candidates)
-        if (c.support >= enough && (!winner || c.rectangle.area() > winner->rectangle.area()))
+        if (c.quality >= enough && (!winner || c.rectangle.area() > winner->rectangle.area()))
             winner = &c;
     if (!winner) return std::nullopt;
     return cv::Rect2d(winner->rectangle);
@@ -122,10 +133,16 @@ void TBorderOptions::visit(config::COptionVisitor& v) {
     v.number("support", support, config::between(0.1, 1),
              "share of a side that is an edge, less that of its continuation, at least");
     v.number("near_best", nearBest, config::between(0, 1),
-             "the largest rectangle wins whose support is this share of the best");
+             "the largest rectangle wins whose support times separation is this share of the best");
     v.number("inside", inside, config::between(0.5, 1), "share of the regions inside, at least");
     v.number("same_wall", sameWall, config::atLeast(0),
              "grey levels by which the wall may differ outside of the four sides");
+    v.number("difference", difference, {0, 1, true},
+             "Hellinger distance of the grey levels in- and outside of a side that says nothing");
+    v.number("separation", separation, config::between(0, 1),
+             "share of the border that must tell inside from outside, at least");
+    v.number("side_sigma_m", sideSigma, config::atLeast(0),
+             "error of a side's place, which the covariance of the patch's centre holds");
 }
 
 CBorderFinder::CBorderFinder(const TBorderOptions& options) : m_options(options) {
@@ -137,8 +154,13 @@ std::optional<cv::Rect2d> CBorderFinder::find(const cv::Mat& wall,
                                               const std::vector<cv::Point2d>& regions,
                                               const cv::Point2d& pixelsPerMetre) const {
     if (wall.rows < 8 || wall.cols < 8 || regions.empty()) return std::nullopt;
-    const CLineSupport upright(wall, valid, m_options.contrast);
-    const CLineSupport level(wall.t(), valid.t(), m_options.contrast);
+    const double brightness = cv::mean(wall, valid)[0] / kBrightness;
+    const double contrast = m_options.contrast * std::clamp(brightness, kLeastShare, 1.0);
+    const CLineSupport upright(wall, valid, contrast);
+    const CLineSupport level(wall.t(), valid.t(), contrast);
+    const CStripHistograms strips(wall, valid);
+    const cv::Size strip(std::max(1, static_cast<int>(kStrip * pixelsPerMetre.x)),
+                         std::max(1, static_cast<int>(kStrip * pixelsPerMetre.y)));
     std::vector<double> xs, ys;
     for (const auto& p : regions) {
         xs.push_back(p.x);
@@ -177,8 +199,10 @@ std::optional<cv::Rect2d> CBorderFinder::find(const cv::Mat& wall,
         if (!holds(r, regions, pixelsPerMetre, m_options.inside) ||
             !onOneWall(wall, valid, r, pixelsPerMetre, m_options.sameWall))
             return;
-        candidates.push_back({r, support});
-        best = std::max(best, support);
+        const double separation = strips.separation(r, strip, m_options.difference);
+        if (!(separation >= m_options.separation)) return;
+        candidates.push_back({r, support * separation});
+        best = std::max(best, support * separation);
     };
     for (const int left : lefts)
         for (const int right : rights)

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <salma/landmarks/CEntityDetector.h>
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 namespace salma::landmarks {
@@ -11,6 +13,9 @@ using observations::TSalientRegion;
 
 /// Corners of a quadrilateral stand for its inside when they are drawn to the centre by this share.
 constexpr double kInside = 0.1;
+
+/// Darker pictures hold too few grey levels to be brightened more.
+constexpr double kMaxGain = 4;
 
 /// A contour's points have no size of their own; they touch nothing.
 constexpr double kPoint = 0.5;
@@ -33,12 +38,25 @@ std::vector<TSalientRegion> pointsOf(const saliency::TQuad& quad) {
 CEntityDetector::CEntityDetector(const TDetectionOptions& options)
     : m_detector(options.selection.detector),
       m_yMin(options.selection.yMin),
+      m_brightness(options.selection.brightness),
       m_saliency(options.saliency),
       m_clusterer(saliency::createClusterer(options.clustering)),
       m_stable(options.mser),
       m_quads(options.quad) {}
 
-TDetections CEntityDetector::detect(const cv::Mat& grey) const {
+/// The picture, its grey levels multiplied so that their mean is as large as wanted.
+cv::Mat CEntityDetector::bright(const cv::Mat& grey) const {
+    const double mean = cv::mean(grey)[0];
+    if (!(mean > 0 && mean < m_brightness)) return grey;
+    cv::Mat brighter;
+    grey.convertTo(brighter, CV_8U, std::min(kMaxGain, m_brightness / mean));
+    return brighter;
+}
+
+TDetections CEntityDetector::detect(const cv::Mat& picture) const {
+    if (picture.type() != CV_8UC1)
+        throw std::invalid_argument("entities: the picture is not 8-bit grey");
+    const cv::Mat grey = bright(picture);
     TDetections out;
     switch (m_detector) {
         case EDetector::scaleSaliency:

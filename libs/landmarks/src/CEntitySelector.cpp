@@ -181,6 +181,8 @@ void TSelectionOptions::visit(config::COptionVisitor& v) {
               {"both", EDetector::both},
               {"quad", EDetector::quad}},
              "salient regions, stable ones, salient ones joined by stable ones, or contours");
+    v.number("brightness", brightness, config::between(0, 255),
+             "mean grey level that darker pictures are brought to before regions are sought");
     v.number("y_min", yMin, config::atLeast(0), "least saliency Y of a salient region [nat]");
     v.integer("min_regions", minRegions, config::between(1, 1000), "regions of an entity");
     v.number("touch", touch, config::between(0, 100),

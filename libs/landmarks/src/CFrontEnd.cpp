@@ -65,6 +65,16 @@ void addCounts(const TSelection& selection, TFrontEndResult& result) {
     result.split += selection.split;
 }
 
+/// The centre is the mean of two sides along each axis, each of them a little wrong.
+void addBorderError(const CWallView& wall, double sideSigma, TPatch& patch) {
+    const double variance = sideSigma * sideSigma / 2;
+    const Eigen::Vector2d along(std::sin(wall.wall().alpha), -std::cos(wall.wall().alpha));
+    auto& covariance = patch.pose.cov;
+    for (int i = 0; i < 2; ++i)
+        for (int j = 0; j < 2; ++j) covariance(i, j) += variance * along[i] * along[j];
+    covariance(2, 2) += variance;
+}
+
 /// True if most regions of the entity lie in one of the patches.
 bool isPartOf(const TEntity& entity, const std::vector<TPatch>& patches) {
     return std::any_of(patches.begin(), patches.end(), [&](const TPatch& patch) {
@@ -156,6 +166,7 @@ std::optional<TPatch> CFrontEnd::landmarkOf(const TEntity& entity,
     auto rectified = m_rectifier.rectify(view.grey, wall, *border);
     if (!rectified.patch) return refuse(appearance::asString(rectified.refusal));
     TPatch& patch = *rectified.patch;
+    addBorderError(wall, m_border.options().sideSigma, patch);
     patch.keypoints = m_descriptor.describe(patch);
     patch.regions = m_secondLook.describe(view.grey, wall, *border);
     if (!appearance::saysEnough(patch, static_cast<std::size_t>(m_options.minKeypoints)))

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <mrpt/math/wrap2pi.h>
 #include <salma/slam/CSalientEKF2D.h>
 #include <salma/slam/rangeBearingModel.h>
 
@@ -17,6 +18,16 @@ using association::TMeasurement;
 
 namespace {
 
+/// Corners have neither wall nor appearance and look the same from every side.
+landmarks::TTrackingOptions cornerTracking(const TEkfOptions& ekf) {
+    landmarks::TTrackingOptions options;
+    options.minViews = ekf.minSightingsCorner;
+    options.minSpread = options.minTravel = 0;
+    options.across = ekf.provisionalRadius;
+    options.memory = ekf.provisionalSteps;
+    return options;
+}
+
 /// Probability that a normally distributed value is below a limit.
 double probabilityBelow(double limit, double mean, double sigma) {
     if (!(sigma > 0)) return mean <= limit ? 1 : 0;
@@ -27,16 +38,25 @@ double probabilityBelow(double limit, double mean, double sigma) {
 
 CSalientEKF2D::CSalientEKF2D(const TEkfOptions& ekf,
                              const association::TAssociationOptions& association,
-                             PatchRatio ratio)
+                             PatchRatio ratio,
+                             const landmarks::TTrackingOptions& tracking)
     : m_ekf(ekf),
       m_associator(association::createAssociator(association)),
       m_ratio(std::move(ratio)),
       m_landmarks(ekf.maxPatches, ekf.patchSpread),
-      m_provisional(ekf.minSightingsCorner, ekf.provisionalRadius, ekf.provisionalSteps) {
+      m_provisionalCorners(cornerTracking(ekf)),
+      m_provisionalEntities(tracking, m_ratio) {
     m_ekf.validate();
 }
 
 CSalientEKF2D::~CSalientEKF2D() = default;
+
+landmarks::TTrackingOptions CSalientEKF2D::atFirstSight() {
+    landmarks::TTrackingOptions options;
+    options.minViews = 1;
+    options.minSpread = 0;
+    return options;
+}
 
 TFilterState CSalientEKF2D::state() {
     const Eigen::Index size = m_xkk.size();
@@ -151,21 +171,33 @@ void CSalientEKF2D::associate() {
                 m_now.decisions.push_back(EDecision::clutter);
         }
     }
-    holdBackCorners();
+    holdBack(ELandmarkKind::corner, m_provisionalCorners);
+    holdBack(ELandmarkKind::salient, m_provisionalEntities);
     noteAssociation(posed);
 }
 
-void CSalientEKF2D::holdBackCorners() {
+void CSalientEKF2D::holdBack(ELandmarkKind kind, landmarks::CWideBaselineTracker& tracker) {
     const auto& measurements = m_now.input.measurements;
-    const auto isCorner = [](const TMeasurement& m) { return m.kind == ELandmarkKind::corner; };
-    if (std::none_of(measurements.begin(), measurements.end(), isCorner)) return;
-    m_provisional.beginStep();
+    const auto isOfKind = [kind](const TMeasurement& m) { return m.kind == kind; };
+    if (std::none_of(measurements.begin(), measurements.end(), isOfKind)) return;
+    tracker.beginStep();
     for (std::size_t i = 0; i < measurements.size(); ++i) {
         const TMeasurement& m = measurements[i];
-        if (m_now.decisions[i] != EDecision::created || !isCorner(m) || m.identity) continue;
-        if (!m_provisional.confirms(located(poseMean(), m.z).landmark, m.convex))
-            m_now.decisions[i] = EDecision::provisional;
+        if (m_now.decisions[i] != EDecision::created || !isOfKind(m) || m.identity) continue;
+        if (!tracker.confirms(sightingOf(m))) m_now.decisions[i] = EDecision::provisional;
     }
+}
+
+/// In the world as the filter has it now: between corrections that is odometry.
+landmarks::TSighting CSalientEKF2D::sightingOf(const TMeasurement& measurement) const {
+    landmarks::TSighting sighting;
+    sighting.position = located(poseMean(), measurement.z).landmark;
+    sighting.robot = poseMean().head<2>();
+    if (!std::isnan(measurement.wallAngle))
+        sighting.wallAngle = mrpt::math::wrapToPi(poseMean()[2] + measurement.wallAngle);
+    sighting.convex = measurement.convex;
+    sighting.patch = measurement.patch;
+    return sighting;
 }
 
 void CSalientEKF2D::learn() {

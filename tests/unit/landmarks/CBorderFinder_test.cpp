@@ -16,6 +16,16 @@ struct TWall {
     cv::Mat grey{300, 400, CV_8U, cv::Scalar(200)};
     cv::Mat valid{300, 400, CV_8U, cv::Scalar(255)};
 
+    /// Bricks of 24 x 7 cm with bright mortar, each of its own grey.
+    void build() {
+        cv::RNG random(5);
+        grey.setTo(150);
+        for (int y = 0; y < 300; y += 12)
+            for (int x = y / 12 % 2 * 18 - 36; x < 400; x += 36)
+                cv::rectangle(grey, cv::Rect(x, y, 34, 10), cv::Scalar(random.uniform(85, 115)),
+                              cv::FILLED);
+    }
+
     TWall() { cv::RNG(7).fill(noise, cv::RNG::NORMAL, 0, 2); }
     void hang(const cv::Rect& where) {
         const cv::Mat art = test::painting(where.height, where.width, 3) * 0.6;
@@ -76,11 +86,55 @@ TEST(CBorderFinder, IsNotDrawnToADoorThatIsTallerThanThePoster) {
 
 TEST(CBorderFinder, TakesNoBricksForAPoster) {
     TWall wall;
-    for (int y = 0; y < 300; y += 12)
-        for (int x = y / 12 % 2 * 18 - 36; x < 400; x += 36)
-            cv::rectangle(wall.grey, cv::Rect(x, y, 34, 10), cv::Scalar(120), cv::FILLED);
+    wall.build();
     EXPECT_FALSE(
         CBorderFinder().find(wall.grey, wall.valid, {{160, 110}, {200, 140}}, kResolution));
+}
+
+TEST(CBorderFinder, FindsAPosterOnBricksThatAreAsBrightAsItself) {
+    TWall wall;
+    wall.build();
+    wall.hang({120, 75, 126, 97});
+    const auto found =
+        CBorderFinder().find(wall.grey, wall.valid, {{160, 110}, {200, 140}}, kResolution);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(found->x, 120, 2);
+    EXPECT_NEAR(found->y, 75, 2);
+    EXPECT_NEAR(found->br().x, 246, 2);
+    EXPECT_NEAR(found->br().y, 172, 2);
+}
+
+TEST(CBorderFinder, DoesNotStretchAPosterOverTheGrainOfWood) {
+    TWall wall;
+    cv::RNG random(8);
+    cv::Mat grain(1, 400, CV_8U);
+    random.fill(grain, cv::RNG::NORMAL, 120, 16);
+    cv::GaussianBlur(grain, grain, {15, 1}, 2.5);
+    cv::repeat(grain, 300, 1, wall.grey);
+    wall.hang({120, 80, 130, 100});
+    const auto found =
+        CBorderFinder().find(wall.grey, wall.valid, {{160, 110}, {200, 140}}, kResolution);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(found->x, 120, 2);
+    EXPECT_NEAR(found->br().x, 250, 2);
+}
+
+TEST(CBorderFinder, TakesNoRectangleOfLinesWhoseInsideLooksLikeTheWall) {
+    TWall wall;
+    cv::rectangle(wall.grey, cv::Rect(120, 80, 130, 100), cv::Scalar(120), 1);
+    EXPECT_FALSE(
+        CBorderFinder().find(wall.grey, wall.valid, {{160, 110}, {200, 140}}, kResolution));
+}
+
+TEST(CBorderFinder, FindsTheBorderInADarkPictureToo) {
+    TWall wall;
+    wall.hang({120, 80, 130, 100});
+    wall.grey.convertTo(wall.grey, CV_8U, 0.4);
+    const auto found =
+        CBorderFinder().find(wall.grey, wall.valid, {{160, 110}, {200, 140}}, kResolution);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(found->x, 120, 2);
+    EXPECT_NEAR(found->br().y, 180, 2);
 }
 
 TEST(CBorderFinder, FindsNothingOnABareWallAndInATinyPicture) {

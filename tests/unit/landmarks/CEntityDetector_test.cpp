@@ -68,6 +68,26 @@ TEST(CEntityDetector, GivesFivePointsInsideEachContourThatBelongTogether) {
     }
 }
 
+TEST(CEntityDetector, BringsADarkPictureToTheWantedBrightnessFirst) {
+    cv::Mat dark;
+    picture().convertTo(dark, CV_8U, 0.3);
+    TDetectionOptions options;
+    options.selection.detector = EDetector::scaleSaliency;
+    options.selection.yMin = 1;
+    options.selection.brightness = 0;
+    const auto asItIs = CEntityDetector(options).detect(dark).regions;
+    const auto bright = CEntityDetector(options).detect(picture()).regions;
+    options.selection.brightness = cv::mean(dark)[0] * 2;
+    const auto brighter = CEntityDetector(options).detect(dark).regions;
+    cv::Mat twice;
+    dark.convertTo(twice, CV_8U, 2);
+    options.selection.brightness = 0;
+    EXPECT_EQ(brighter.size(), CEntityDetector(options).detect(twice).regions.size());
+    EXPECT_GT(brighter.size(), asItIs.size());
+    options.selection.brightness = 20;  // never darker
+    EXPECT_EQ(CEntityDetector(options).detect(picture()).regions.size(), bright.size());
+}
+
 TEST(CEntityDetector, FindsNothingInAPictureOfOneColour) {
     for (const auto detector :
          {EDetector::scaleSaliency, EDetector::mser, EDetector::both, EDetector::quad}) {

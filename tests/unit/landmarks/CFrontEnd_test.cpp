@@ -45,6 +45,25 @@ TEST(CFrontEnd, FindsThePaintingWithItsPlaceAndSizeFromSeveralSides) {
     }
 }
 
+TEST(CFrontEnd, AddsTheErrorOfTheBorderToTheCovarianceOfTheCentre) {
+    TSeeingOptions options;
+    options.border.sideSigma = 0;
+    const TView v = view(0.5, 0.5, 5);
+    const auto without = CFrontEnd(options).process(v).landmarks;
+    options.border.sideSigma = 0.1;
+    const auto with = CFrontEnd(options).process(v).landmarks;
+    ASSERT_EQ(without.size(), 1u);
+    ASSERT_EQ(with.size(), 1u);
+    const Eigen::Matrix<double, 6, 6> added =
+        with[0].pose.cov.asEigen() - without[0].pose.cov.asEigen();
+    // Two sides of 0.1 m: variance 0.005 along the wall (sin a, -cos a) and upwards, else nothing.
+    const Eigen::Vector2d along(std::sin(0.5), -std::cos(0.5));
+    Eigen::Matrix<double, 6, 6> expected = Eigen::Matrix<double, 6, 6>::Zero();
+    expected.topLeftCorner<2, 2>() = 0.005 * along * along.transpose();
+    expected(2, 2) = 0.005;
+    EXPECT_LT((added - expected).cwiseAbs().maxCoeff(), 1e-9);
+}
+
 TEST(CFrontEnd, FindsThePaintingFromKadirsClustersToo) {
     TSeeingOptions options;
     options.clustering.method = saliency::EClustering::kadir;
@@ -201,27 +220,28 @@ TEST(CFrontEnd, SplitsAnEntityOnTwoPlanesAndPutsEachPartOnItsOwn) {
     EXPECT_FALSE(result.landmarks.empty());
 }
 
-TEST(CFrontEnd, TriesTheNextEntityIfTheFirstHasNoBorder) {
-    // Two paintings; the one that wins then touches a dark post on its left side.
+TEST(CFrontEnd, TriesTheNextEntityIfTheFirstIsRefused) {
+    // A large painting, and right of it a small one with more detail.
     TView v = view(0, 0, 5);
     const appearance::CWallView wall(v.camera, v.T_r_c, v.walls[0]);
-    v.grey = test::pictureOf(wall, cv::Rect2d(-0.5, 0.95, 0.4, 0.4), 6);
-    test::pictureOf(wall, cv::Rect2d(0.15, 0.95, 0.4, 0.4), 9)
-        .colRange(320, 640)
-        .copyTo(v.grey.colRange(320, 640));
-    const auto whole = CFrontEnd().process(v);
-    ASSERT_EQ(whole.landmarks.size(), 1u);
-    const double side = whole.landmarks[0].quad[0].x;
-    v.grey.colRange(static_cast<int>(side) - 60, static_cast<int>(side)).setTo(90);
-    const auto one = CFrontEnd().process(v);
+    v.grey = test::pictureOf(wall, cv::Rect2d(-0.5, 0.9, 0.5, 0.5), 6);
+    test::pictureOf(wall, cv::Rect2d(0.25, 1.1, 0.25, 0.22), 9)
+        .colRange(400, 640)
+        .copyTo(v.grey.colRange(400, 640));
+    const auto first = CFrontEnd().process(v);
+    ASSERT_EQ(first.landmarks.size(), 1u);
+    const bool smallWins = first.landmarks[0].width < 0.3;
+    TSeeingOptions options;  // that refuse the one that wins
+    (smallWins ? options.frontEnd.minSize : options.frontEnd.maxSize) = 0.35;
+    const auto one = CFrontEnd(options).process(v);
     EXPECT_TRUE(one.landmarks.empty());
-    EXPECT_EQ(one.refused.count("no border"), 1u);
-    TSeeingOptions options;
+    EXPECT_EQ(one.refused.count(smallWins ? "too small" : "too large"), 1u);
+    EXPECT_EQ(one.refused.count("outnumbered"), 1u);
     options.selection.maxTries = 5;
     const auto more = CFrontEnd(options).process(v);
     ASSERT_EQ(more.landmarks.size(), 1u);
-    EXPECT_NEAR(more.landmarks[0].width, 0.4, 0.03);
-    EXPECT_GT(std::abs(more.landmarks[0].quad[0].x - side), 100) << "the other painting";
+    EXPECT_NEAR(more.landmarks[0].width, smallWins ? 0.5 : 0.25, 0.03);
+    EXPECT_EQ(more.refused.count("outnumbered"), 0u);
 }
 
 TEST(CFrontEnd, RefusesPicturesOfAnotherTypeOrSize) {

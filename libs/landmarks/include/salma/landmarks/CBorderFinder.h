@@ -11,12 +11,15 @@ namespace salma::landmarks {
 
 /// Section [border] of config.ini.
 struct TBorderOptions : public config::TStrictOptions<TBorderOptions> {
-    double grow{0.8};      //!< How far a side may lie outside the regions [m].
-    double contrast{2.5};  //!< Grey levels per pixel by which an edge changes.
-    double support{0.65};  //!< This share of a side shows an edge, at least [-].
-    double nearBest{0.9};  //!< The largest rectangle wins whose support is this share of the best.
-    double inside{0.9};    //!< This share of the regions lies inside [-].
-    double sameWall{20};   //!< Outside of all four sides the wall is equally bright within this.
+    double grow{0.8};        //!< How far a side may lie outside the regions [m].
+    double contrast{2.5};    //!< Grey levels per pixel by which an edge changes.
+    double support{0.65};    //!< This share of a side shows an edge, at least [-].
+    double nearBest{0.9};    //!< The largest rectangle wins that is this good, of the best.
+    double inside{0.9};      //!< This share of the regions lies inside [-].
+    double sameWall{20};     //!< Outside of all four sides the wall is equally bright within this.
+    double difference{0.3};  //!< Hellinger distance of in- and outside that says nothing [-].
+    double sideSigma{0.01};  //!< Error of a side's place, for the covariance of the centre [m].
+    double separation{0.4};  //!< Share of the border that tells inside from outside, at least [-].
 
     void visit(config::COptionVisitor& v);
 };

@@ -29,8 +29,9 @@ struct TDetectionOptions {
  * - `both`: the salient regions, joined where their centres lie in one stable region.
  * - `quad`: closed four-sided contours, each as five points inside it that belong together.
  *
- * All give regions and the areas that join them; what follows is the same for each. Const is safe
- * from several threads. */
+ * All give regions and the areas that join them; what follows is the same for each. A picture that
+ * is darker than `brightness` is brought to it first: thresholds are in grey levels, and a camera's
+ * exposure is not the poster's doing. Const is safe from several threads. */
 class CEntityDetector {
  public:
     /// \throw std::invalid_argument if options are out of range.
@@ -42,10 +43,11 @@ class CEntityDetector {
  private:
     std::vector<observations::TSalientRegion> salientRegions(const cv::Mat& grey) const;
     void addStable(const cv::Mat& grey, bool asRegions, TDetections& out) const;
+    cv::Mat bright(const cv::Mat& grey) const;
     void addQuads(const cv::Mat& grey, TDetections& out) const;
 
     EDetector m_detector;
-    double m_yMin;
+    double m_yMin, m_brightness;
     saliency::CScaleSaliency m_saliency;
     std::shared_ptr<const saliency::CClusterer> m_clusterer;
     saliency::CStableRegions m_stable;

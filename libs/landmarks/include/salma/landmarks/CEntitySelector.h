@@ -18,8 +18,9 @@ enum class EDetector { scaleSaliency, mser, both, quad };
 /// Section [selection] of config.ini.
 struct TSelectionOptions : public config::TStrictOptions<TSelectionOptions> {
     EDetector detector{EDetector::both};
-    double yMin{1.9};     //!< Salient regions below this are not looked at [nat].
-    int minRegions{2};    //!< Regions that make an entity.
+    double brightness{110};  //!< Mean grey to which darker pictures are brought first; 0: none.
+    double yMin{1.9};        //!< Salient regions below this are not looked at [nat].
+    int minRegions{2};       //!< Regions that make an entity.
     double touch{2.0};    //!< Two regions touch if their centres are nearer than this times the sum
                           //!< of their scales.
     int maxEntities{1};   //!< Landmarks taken from one picture.

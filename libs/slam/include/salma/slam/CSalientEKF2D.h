@@ -3,8 +3,8 @@
 
 #include <mrpt/slam/CRangeBearingKFSLAM2D.h>
 #include <salma/association/CDataAssociator.h>
+#include <salma/landmarks/CWideBaselineTracker.h>
 #include <salma/slam/CLandmarkTable.h>
-#include <salma/slam/CProvisionalCorners.h>
 #include <salma/slam/CSlamBackend.h>
 #include <salma/slam/TEkfOptions.h>
 #include <salma/slam/blockFilter.h>
@@ -22,11 +22,15 @@ namespace salma::slam {
 class CSalientEKF2D : public mrpt::slam::CRangeBearingKFSLAM2D, public CSlamBackend {
  public:
     /** \param ratio Null: appearance is not used.
+     * \param tracking When an entity becomes a landmark; by default at its first sighting.
      * \throw std::invalid_argument if options are out of range. */
     CSalientEKF2D(const TEkfOptions& ekf,
                   const association::TAssociationOptions& association,
-                  PatchRatio ratio = nullptr);
+                  PatchRatio ratio = nullptr,
+                  const landmarks::TTrackingOptions& tracking = atFirstSight());
     ~CSalientEKF2D() override;
+
+    static landmarks::TTrackingOptions atFirstSight();
 
     void process(const TStepInput& step) override;
     mrpt::poses::CPosePDFGaussian pose() const override;
@@ -68,7 +72,8 @@ class CSalientEKF2D : public mrpt::slam::CRangeBearingKFSLAM2D, public CSlamBack
     void stepByMrpt();
     void associate();
     association::TAssociationProblem problem() const;
-    void holdBackCorners();
+    void holdBack(association::ELandmarkKind kind, landmarks::CWideBaselineTracker& tracker);
+    landmarks::TSighting sightingOf(const association::TMeasurement& measurement) const;
     void enterLandmark(std::size_t observation, std::size_t index);
     void learn();
     void noteAssociation(const association::TAssociationProblem& problem);
@@ -82,7 +87,7 @@ class CSalientEKF2D : public mrpt::slam::CRangeBearingKFSLAM2D, public CSlamBack
     std::unique_ptr<association::CDataAssociator> m_associator;
     PatchRatio m_ratio;
     CLandmarkTable m_landmarks;
-    CProvisionalCorners m_provisional;
+    landmarks::CWideBaselineTracker m_provisionalCorners, m_provisionalEntities;
     association::TDropCounts m_dropped;
     TCurrentStep m_now;
     TRunRecord m_record;  //!< Rows of all steps; landmarks only in results().
