@@ -123,7 +123,10 @@ CLaserCameraCommand::TRun CLaserCameraCommand::calibrate() const {
         auto& scan = scans[run.seen.indices[i]];
         if (m_clockwise) scan.start = -scan.start, scan.step = -scan.step;
         const auto& board = run.seen.boards[i];
-        run.pairs.push_back({board.file, board.pixels, std::move(scan)});
+        std::optional<bool> dark;
+        if (m_board.board.pattern == calibration::EPattern::chessboard)
+            dark = calibration::firstSquareIsDark(board.grey, m_board.board, board.pixels);
+        run.pairs.push_back({board.file, board.pixels, std::move(scan), dark});
     }
     run.result = calibration::CLaserCameraCalibrator(m_options).calibrate(run.camera, m_board.board,
                                                                           run.pairs);
@@ -148,6 +151,8 @@ void CLaserCameraCommand::run(std::ostream& out) {
     for (std::size_t i = 0; i < kNames.size(); ++i)
         out << "  " << kNames[i] << " " << fixed(valuesOf(result)[i], 2) << " +- "
             << fixed(sigmaOf(result, i), 2) << " " << unitOf(i) << "\n";
+    out << "  dark squares add " << fixed(1e3 * result.darkOffset, 2) << " +- "
+        << fixed(1e3 * result.sigmaDark, 2) << " mm\n";
     out << "camera on the robot " << poseText(laserPose() + result.T_l_c) << "\n"
         << "median distance from the boards " << fixed(1e3 * result.medianFitted(), 1)
         << " mm fitted, " << fixed(1e3 * result.medianHeldOut(), 1) << " mm held out\n"
@@ -168,6 +173,7 @@ void CLaserCameraCommand::writeResults(const COutputFolder& folder, const TRun& 
         for (int c = 0; c < 7; ++c) row.push_back(result.covariance(r, c));
         json["covariance_m_rad"].push_back(row);
     }
+    json["dark_offset_m"] = {{"value", result.darkOffset}, {"sigma", result.sigmaDark}};
     json["sigma_range_m"] = result.sigmaRange;
     json["sigma_corner_px"] = result.sigmaPixels;
     json["median_distance_fitted_m"] = result.medianFitted();
@@ -195,6 +201,8 @@ void CLaserCameraCommand::writeReport(const COutputFolder& folder, const TRun& r
     for (std::size_t i = 0; i < kNames.size(); ++i)
         rows.push_back(
             {kNames[i], fixed(valuesOf(result)[i], 2), fixed(sigmaOf(result, i), 2), unitOf(i)});
+    rows.push_back({"offset, dark squares add", fixed(1e3 * result.darkOffset, 2),
+                    fixed(1e3 * result.sigmaDark, 2), "mm"});
     page.table(rows);
     page.paragraph("Camera on the robot: " + poseText(laserPose() + result.T_l_c) +
                    " (x y z, yaw pitch roll). Optical frame: z forward, x right, y down. offset: "

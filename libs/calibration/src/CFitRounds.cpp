@@ -27,9 +27,10 @@ std::vector<std::size_t> CFitRounds::beamsOn(std::size_t pair,
         const double range = -plane.offset(pose.t) / steepness;  // where the beam meets the plane
         // a beam along the board tells little, and its range would not be linear
         if (!(std::abs(steepness) > 0.15) || !(range > 0)) continue;
-        if (!m_outline.contains(state.onBoard(pair, pose.t + range * along))) continue;
+        const Eigen::Vector3d place = state.onBoard(pair, pose.t + range * along);
+        if (!m_outline.contains(place)) continue;
         ++expected;
-        const double miss = scan.ranges[i] - state.offset() - range;
+        const double miss = scan.ranges[i] - state.offset(m_fit.isDark(pair, place)) - range;
         if (std::abs(miss * steepness) <= limit) beams.push_back(i);
     }
     // Where most of the beams that should meet the board end elsewhere, scan and picture do not

@@ -45,6 +45,7 @@ struct TCornerCost {
 struct TRangeCost {
     double direction;
     double range;
+    bool dark;
     double sigma;
 
     template <typename T>
@@ -60,7 +61,8 @@ struct TRangeCost {
             rate += normal[i] * along[i];
         }
         if (!(rate * rate > T(1e-6))) return false;
-        residual[0] = (T(range) - laser[6] - distance / rate) / T(sigma);
+        const T offset = dark ? laser[6] + laser[7] : laser[6];
+        residual[0] = (T(range) - offset - distance / rate) / T(sigma);
         return true;
     }
 };
@@ -105,9 +107,12 @@ struct CJointFit::TProblem {
     ceres::Problem problem;
 
     TProblem(const CJointFit& fit, const TBeams& beams, const TJointState& start) : state(start) {
-        problem.AddParameterBlock(state.laser.data(), 7);
-        if (!fit.m_estimateOffset)
-            problem.SetManifold(state.laser.data(), new ceres::SubsetManifold(7, {6}));
+        problem.AddParameterBlock(state.laser.data(), 8);
+        std::vector<int> fixed;
+        if (!fit.m_estimateOffset) fixed.push_back(6);
+        if (!fit.m_estimateDark) fixed.push_back(7);
+        if (!fixed.empty())
+            problem.SetManifold(state.laser.data(), new ceres::SubsetManifold(8, fixed));
         for (std::size_t i = 0; i < fit.m_pairs.size(); ++i) addPair(fit, i, beams[i]);
     }
 
@@ -122,17 +127,42 @@ struct CJointFit::TProblem {
                 new ceres::HuberLoss(kHuber), board);
         for (const std::size_t beam : beams)
             problem.AddResidualBlock(
-                new ceres::AutoDiffCostFunction<TRangeCost, 1, 7, 6>(new TRangeCost{
-                    pair.scan.direction(beam), pair.scan.ranges[beam], fit.sigmaRange}),
+                new ceres::AutoDiffCostFunction<TRangeCost, 1, 8, 6>(
+                    new TRangeCost{pair.scan.direction(beam), pair.scan.ranges[beam],
+                                   fit.meetsDark(i, beam, state), fit.sigmaRange}),
                 new ceres::HuberLoss(kHuber), state.laser.data(), board);
     }
 };
 
 CJointFit::CJointFit(const mrpt::img::TCamera& camera,
-                     const std::vector<mrpt::math::TPoint2D>& board,
+                     const TBoard& board,
                      const std::vector<TLaserBoardPair>& pairs,
-                     bool estimateOffset)
-    : m_camera(camera), m_board(board), m_pairs(pairs), m_estimateOffset(estimateOffset) {}
+                     const TLaserCameraOptions& options)
+    : m_camera(camera),
+      m_board(board.points()),
+      m_square(board.square),
+      m_pairs(pairs),
+      m_estimateOffset(options.estimateOffset),
+      m_estimateDark(options.estimateDark && board.pattern == EPattern::chessboard &&
+                     std::any_of(pairs.begin(), pairs.end(), [](const auto& pair) {
+                         return pair.firstIsDark.has_value();
+                     })) {}
+
+bool CJointFit::isDark(std::size_t pair, const Eigen::Vector3d& p) const {
+    const auto& first = m_pairs[pair].firstIsDark;
+    if (!first || !m_estimateDark) return false;
+    const auto cell = [&](double x) { return static_cast<int>(std::floor(x / m_square)); };
+    return (std::abs(cell(p.x()) + cell(p.y())) % 2 == 0) == *first;
+}
+
+bool CJointFit::meetsDark(std::size_t pair, std::size_t beam, const TJointState& state) const {
+    const double a = m_pairs[pair].scan.direction(beam);
+    const TLaserPose pose = state.pose();
+    const TPlane plane = state.plane(pair);
+    const Eigen::Vector3d along = pose.R.col(0) * std::cos(a) + pose.R.col(1) * std::sin(a);
+    const double range = -plane.offset(pose.t) / plane.normal.dot(along);
+    return std::abs(range) < 1e3 && isDark(pair, state.onBoard(pair, pose.t + range * along));
+}
 
 void CJointFit::run(const TBeams& beams, TJointState& state) const {
     TProblem work(*this, beams, state);
@@ -149,7 +179,7 @@ void CJointFit::run(const TBeams& beams, TJointState& state) const {
     state = work.state;
 }
 
-std::optional<Eigen::Matrix<double, 7, 7>> CJointFit::covariance(const TBeams& beams,
+std::optional<Eigen::Matrix<double, 8, 8>> CJointFit::covariance(const TBeams& beams,
                                                                  const TJointState& state) const {
     TProblem work(*this, beams, state);
     ceres::Covariance::Options options;
@@ -158,16 +188,16 @@ std::optional<Eigen::Matrix<double, 7, 7>> CJointFit::covariance(const TBeams& b
     const double* laser = work.state.laser.data();
     const std::vector<std::pair<const double*, const double*>> wanted{{laser, laser}};
     if (!covariance.Compute(wanted, &work.problem)) return std::nullopt;
-    Eigen::Matrix<double, 7, 7, Eigen::RowMajor> block;
+    Eigen::Matrix<double, 8, 8, Eigen::RowMajor> block;
     if (!covariance.GetCovarianceBlock(laser, laser, block.data())) return std::nullopt;
-    return Eigen::Matrix<double, 7, 7>(block);
+    return Eigen::Matrix<double, 8, 8>(block);
 }
 
 double CJointFit::rangeResidual(std::size_t pair,
                                 std::size_t beam,
                                 const TJointState& state) const {
     const auto& scan = m_pairs[pair].scan;
-    const TRangeCost cost{scan.direction(beam), scan.ranges[beam], 1};
+    const TRangeCost cost{scan.direction(beam), scan.ranges[beam], meetsDark(pair, beam, state), 1};
     double residual = 0;
     const bool meets = cost(state.laser.data(), state.boards[pair].data(), &residual);
     return meets ? residual : std::numeric_limits<double>::infinity();

@@ -72,7 +72,7 @@ CPose3D asPose(const Eigen::Matrix3d& R, const Eigen::Vector3d& t) {
 }
 
 /// (x, y, z, yaw, pitch, roll) of the camera in the laser's frame, and the offset.
-Eigen::Matrix<double, 7, 1> asMrpt(const std::array<double, 7>& laser) {
+Eigen::Matrix<double, 7, 1> asMrpt(const std::array<double, 8>& laser) {
     const TLaserPose T_c_l = TJointState{laser, {}}.pose();
     const CPose3D T_l_c = asPose(T_c_l.R.transpose(), -T_c_l.R.transpose() * T_c_l.t);
     Eigen::Matrix<double, 7, 1> v;
@@ -81,7 +81,7 @@ Eigen::Matrix<double, 7, 1> asMrpt(const std::array<double, 7>& laser) {
 }
 
 /// By central differences, angles wrapped.
-Eigen::Matrix<double, 7, 7> derivativeOfMrpt(const std::array<double, 7>& laser) {
+Eigen::Matrix<double, 7, 7> derivativeOfMrpt(const std::array<double, 8>& laser) {
     constexpr double step = 1e-6;
     Eigen::Matrix<double, 7, 7> J;
     for (std::size_t i = 0; i < 7; ++i) {
@@ -101,14 +101,17 @@ double medianOf(std::vector<double> values) {
     return *middle;
 }
 
-std::vector<double> distancesOf(const TLaserBoardPair& pair,
+std::vector<double> distancesOf(const CJointFit& fit,
+                                const TLaserBoardPair& pair,
+                                std::size_t index,
                                 const std::vector<std::size_t>& beams,
-                                const TPlane& plane,
                                 const TJointState& state) {
     std::vector<double> distances;
     const TLaserPose pose = state.pose();
+    const TPlane plane = state.plane(index);
     for (const std::size_t beam : beams) {
-        const double r = pair.scan.ranges[beam] - state.offset(), a = pair.scan.direction(beam);
+        const double offset = state.offset(fit.meetsDark(index, beam, state));
+        const double r = pair.scan.ranges[beam] - offset, a = pair.scan.direction(beam);
         distances.push_back(plane.offset(pose.map(r * std::cos(a), r * std::sin(a))));
     }
     return distances;
@@ -117,9 +120,9 @@ std::vector<double> distancesOf(const TLaserBoardPair& pair,
 /// Each block of neighbouring pairs against the pose that the other blocks give. Pictures taken one
 /// after the other are alike: one of them alone would not be left out.
 void holdOut(const TLaserCameraOptions& options,
+             const CJointFit& fit,
              const CFitRounds& rounds,
              const std::vector<TLaserBoardPair>& pairs,
-             const std::vector<TBoardInScan>& boards,
              const TJointState& start,
              TLaserCameraCalibration& result) {
     const std::size_t n = pairs.size(),
@@ -137,7 +140,7 @@ void holdOut(const TLaserCameraOptions& options,
         for (std::size_t i = 0; i < n; ++i) {
             if (use[i] || !result.pairs[i].used) continue;
             const auto beams = rounds.beamsOn(i, state, 2 * options.tolerance);
-            result.pairs[i].heldOutDistances = distancesOf(pairs[i], beams, boards[i].plane, state);
+            result.pairs[i].heldOutDistances = distancesOf(fit, pairs[i], i, beams, state);
         }
     }
 }
@@ -163,6 +166,7 @@ void TLaserCameraOptions::visit(config::COptionVisitor& v) {
     v.integer("min_pairs", minPairs, config::between(5, 1e6),
               "pictures and scans that must agree on the pose");
     v.integer("min_points", minPoints, config::between(3, 1e6), "of a scan, on one board");
+    v.flag("estimate_dark", estimateDark, "whether a further offset on dark squares is estimated");
     v.flag("estimate_offset", estimateOffset, "whether a constant offset of ranges is estimated");
     v.integer("folds", folds, config::between(2, 1000),
               "blocks of neighbouring pairs, each left out once");
@@ -212,14 +216,15 @@ TLaserCameraCalibration CLaserCameraCalibrator::calibrate(
     start.setPose(*found);
 
     TJointState state = start;
-    CJointFit fit(camera, points, pairs, m_options.estimateOffset);
+    CJointFit fit(camera, board, pairs, m_options);
     const CFitRounds rounds(m_options, outline, pairs, fit);
     const TBeams beams = rounds.run(std::vector<bool>(pairs.size(), true), state);
     TLaserCameraCalibration result;
     const auto covariance = fit.covariance(beams, state);
     if (covariance) {
         const auto J = derivativeOfMrpt(state.laser);
-        result.covariance = J * *covariance * J.transpose();
+        result.covariance = J * covariance->topLeftCorner<7, 7>() * J.transpose();
+        result.sigmaDark = std::sqrt((*covariance)(7, 7));
     }
     const Eigen::Matrix<double, 7, 1> sigma = result.covariance.diagonal().cwiseSqrt();
     if (!covariance || !(sigma.head<3>().maxCoeff() <= kWorstShift) ||
@@ -228,7 +233,8 @@ TLaserCameraCalibration CLaserCameraCalibrator::calibrate(
             "the boards do not determine the camera's pose: hold them in more directions");
     const TLaserPose T_c_l = state.pose();
     result.T_l_c = asPose(T_c_l.R.transpose(), -T_c_l.R.transpose() * T_c_l.t);
-    result.rangeOffset = state.offset();
+    result.rangeOffset = state.laser[6];
+    result.darkOffset = state.laser[7];
     result.sigmaRange = fit.sigmaRange;
     result.sigmaPixels = fit.sigmaPixels;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -243,10 +249,9 @@ TLaserCameraCalibration CLaserCameraCalibrator::calibrate(
     state.boards = start.boards;
     for (std::size_t i = 0; i < pairs.size(); ++i)
         if (result.pairs[i].used)
-            result.pairs[i].distances =
-                distancesOf(pairs[i], rounds.beamsOn(i, state, 2 * m_options.tolerance),
-                            boards[i].plane, state);
-    holdOut(m_options, rounds, pairs, boards, start, result);
+            result.pairs[i].distances = distancesOf(
+                fit, pairs[i], i, rounds.beamsOn(i, state, 2 * m_options.tolerance), state);
+    holdOut(m_options, fit, rounds, pairs, start, result);
     return result;
 }
 

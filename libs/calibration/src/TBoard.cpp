@@ -98,4 +98,24 @@ std::optional<std::vector<TPoint2D>> findBoard(const cv::Mat& grey, const TBoard
                                                  : findSquares(grey, board);
 }
 
+bool firstSquareIsDark(const cv::Mat& grey,
+                       const TBoard& board,
+                       const std::vector<TPoint2D>& pixels) {
+    if (grey.type() != CV_8UC1 || pixels.size() != board.points().size())
+        throw std::invalid_argument("needs a grey picture and all points of its board");
+    double sums[2] = {0, 0}, counts[2] = {0, 0};
+    for (int r = 0; r + 1 < board.rows; ++r)
+        for (int c = 0; c + 1 < board.columns; ++c) {
+            const auto first = static_cast<std::size_t>(r * board.columns + c);
+            const auto below = first + static_cast<std::size_t>(board.columns);
+            const TPoint2D middle =
+                (pixels[first] + pixels[first + 1] + pixels[below] + pixels[below + 1]) * 0.25;
+            const cv::Point at(cvRound(middle.x), cvRound(middle.y));
+            if (!cv::Rect(0, 0, grey.cols, grey.rows).contains(at)) continue;
+            sums[(r + c) % 2] += grey.at<unsigned char>(at);
+            counts[(r + c) % 2] += 1;
+        }
+    return sums[0] * counts[1] < sums[1] * counts[0];
+}
+
 }  // namespace salma::calibration

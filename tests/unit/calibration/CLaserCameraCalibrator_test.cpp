@@ -121,6 +121,22 @@ TEST(LaserCamera, WithoutOffsetTakesRangesAsTheyAre) {
     EXPECT_LT((result.T_l_c - rig.T_l_c()).norm(), 0.008);
 }
 
+TEST(LaserCamera, TakesOutThatDarkSquaresAreRangedShorter) {
+    CSimulatedRig rig(12);
+    rig.dark = -0.04;
+    auto pairs = rig.pairs(15);
+    for (auto& pair : pairs) pair.firstIsDark = true;
+    const auto known = calibrate(rig, pairs);
+    EXPECT_NEAR(known.darkOffset, -0.04, 4 * known.sigmaDark);
+    EXPECT_LT(known.sigmaDark, 0.002);
+    EXPECT_LT(missOf(rig, known).distance, 0.008);
+    EXPECT_LT(missOf(rig, known).nees, 18.5);  // 99 % of chi-square with 7 degrees of freedom
+    for (auto& pair : pairs) pair.firstIsDark.reset();
+    const auto unknown = calibrate(rig, pairs);
+    EXPECT_EQ(unknown.darkOffset, 0);
+    EXPECT_GT(unknown.medianFitted(), 2 * known.medianFitted());
+}
+
 TEST(LaserCamera, HoldsOutBoardsThatFitAsWell) {
     CSimulatedRig rig(9);
     const auto result = calibrate(rig, rig.pairs(20));
@@ -185,16 +201,18 @@ TEST(LaserCamera, FitsRealBoardsThatWereLeftOutAsWellAsTheOthers) {
     std::vector<TLaserBoardPair> pairs;
     for (std::size_t i = 0; i < scans.size(); ++i) {
         const std::string name = folder + "/RGB" + std::to_string(31 + i) + ".png";
-        const auto points = findBoard(cv::imread(name, cv::IMREAD_GRAYSCALE), board);
+        const cv::Mat grey = cv::imread(name, cv::IMREAD_GRAYSCALE);
+        const auto points = findBoard(grey, board);
         ASSERT_TRUE(points) << name;
         views.push_back({name, *points});
-        pairs.push_back({name, *points, scans[i]});
+        pairs.push_back({name, *points, scans[i], firstSquareIsDark(grey, board, *points)});
     }
     const auto camera = CCameraCalibrator().calibrate(board.points(), views, {640, 480}).camera;
     const auto result = CLaserCameraCalibrator().calibrate(camera, board, pairs);
     EXPECT_EQ(result.usedPairs(), 31u);
     EXPECT_LT(result.medianHeldOut(), 1.2 * result.medianFitted());
-    EXPECT_LT(result.medianFitted(), 0.016);
+    EXPECT_LT(result.medianFitted(), 0.010);
+    EXPECT_LT(result.darkOffset, -0.02);  // a URG ranges dark squares shorter
 }
 
 }  // namespace

@@ -91,7 +91,13 @@ int CSimulatedRig::scan(const CPose3D& T_l_b, TLaserBoardPair& pair) {
         // the board is one square larger than its inner corners on every side
         const bool meets = toPlane > 0 && toPlane < range && onBoard.x > -0.1 && onBoard.x < 0.9 &&
                            onBoard.y > -0.1 && onBoard.y < 0.6;
-        if (meets) range = toPlane, ++hits;
+        if (meets) {
+            const double s = m_board.square;
+            const int cells =
+                static_cast<int>(std::floor(onBoard.x / s) + std::floor(onBoard.y / s));
+            range = toPlane + (cells % 2 == 0 ? dark : 0);
+            ++hits;
+        }
         pair.scan.ranges.push_back(range + offset + noise(m_random));
     }
     return hits;

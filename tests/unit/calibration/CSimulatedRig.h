@@ -17,6 +17,7 @@ class CSimulatedRig {
     double sigmaRange{0.005};  //!< [m]
     double sigmaPixels{0.1};   //!< [px]
     double offset{0.015};      //!< [m]
+    double dark{0};            //!< [m] What dark squares add to a range.
     double tilt{1.05};  //!< [rad] Largest angle of the board to the line of sight, each axis.
 
     explicit CSimulatedRig(unsigned seed);

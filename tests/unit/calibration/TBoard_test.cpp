@@ -34,6 +34,18 @@ TEST(FindBoard, FindsCornersOfAChessboardToAFractionOfAPixel) {
     }
 }
 
+TEST(FindBoard, TellsDarkSquaresFromBrightOnes) {
+    CSimulatedRig rig(23);
+    auto pixels = rig.pairs(1)[0].pixels;
+    const cv::Mat picture = rig.picture(rig.boards()[0]);
+    EXPECT_TRUE(firstSquareIsDark(picture, rig.board(), pixels));
+    EXPECT_FALSE(firstSquareIsDark(255 - picture, rig.board(), pixels));
+    std::reverse(pixels.begin(), pixels.end());  // 8 x 5 squares: the other way it begins bright
+    EXPECT_FALSE(firstSquareIsDark(picture, rig.board(), pixels));
+    pixels.pop_back();
+    EXPECT_THROW(firstSquareIsDark(picture, rig.board(), pixels), std::invalid_argument);
+}
+
 TEST(FindBoard, FindsAChessboardBeforeABrightWindow) {
     CSimulatedRig rig(22);
     rig.pairs(1);

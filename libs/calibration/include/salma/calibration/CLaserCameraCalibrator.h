@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct TLaserCameraOptions : public config::TStrictOptions<TLaserCameraOptions> 
     int samples{5000};          //!< Random starts.
     int minPairs{5};            //!< Of pictures and scans that agree.
     int minPoints{8};           //!< Of a scan, on one board.
+    bool estimateDark{true};    //!< A further offset on dark squares, where their places are known.
     bool estimateOffset{true};  //!< Of all ranges, as the LMS 200 has it.
     int folds{5};               //!< Blocks of pairs that are left out, each once.
     int seed{1};                //!< Of the random starts.
@@ -35,6 +37,8 @@ struct TLaserBoardPair {
     std::string name;                          //!< For messages; the picture's file.
     std::vector<mrpt::math::TPoint2D> pixels;  //!< The board's points [px].
     TRangeScan scan;
+    /// firstSquareIsDark(), of a chessboard. Without it, dark squares are ranged as bright ones.
+    std::optional<bool> firstIsDark;
 };
 
 /// What became of one pair.
@@ -51,6 +55,8 @@ struct TPairFit {
 struct TLaserCameraCalibration {
     mrpt::poses::CPose3D T_l_c;  //!< Optical frame of the camera in the laser's frame.
     double rangeOffset{0};       //!< [m] Measured minus true range.
+    double darkOffset{0};        //!< [m] What dark squares add to it.
+    double sigmaDark{0};         //!< [m]
     /// Of (x, y, z, yaw, pitch, roll) of T_l_c and the offset [m, rad].
     Eigen::Matrix<double, 7, 7> covariance{Eigen::Matrix<double, 7, 7>::Zero()};
     double sigmaRange{0};   //!< [m] Of one range, from the residuals.
@@ -68,10 +74,11 @@ struct TLaserCameraCalibration {
  * Each end of a beam on a board lies in the board's plane as the camera sees it. A linear start
  * from five lines drawn at random (of all straight pieces of each scan: which is the board need not
  * be told), the pose that most pairs agree with, then maximum likelihood over the pose, the offset
- * of the ranges and the poses of the boards, with a robust loss (Ceres). The camera's own
- * intrinsics are taken as exact. The noise of ranges and corners is estimated with it. Source: Q.
- * Zhang and R. Pless, "Extrinsic calibration of a camera and laser range finder", IROS 2004; the
- * joint estimate with the boards' poses is own. */
+ * of the ranges and the poses of the boards, with a robust loss (Ceres). Some scanners range dark
+ * squares differently: a second offset takes that out. The camera's own intrinsics are taken as
+ * exact. The noise of ranges and corners is estimated with it.
+ * Source: Q. Zhang and R. Pless, "Extrinsic calibration of a camera and laser range finder", IROS
+ * 2004; the joint estimate with the boards' poses and the second offset are own. */
 class CLaserCameraCalibrator {
  public:
     explicit CLaserCameraCalibrator(const TLaserCameraOptions& options = {});

@@ -42,4 +42,10 @@ struct TBoard {
 std::optional<std::vector<mrpt::math::TPoint2D>> findBoard(const cv::Mat& grey,
                                                            const TBoard& board);
 
+/** Whether the square between the first two points of the first two rows of a chessboard is dark.
+ * \param grey CV_8UC1. \param pixels As findBoard() found them. */
+bool firstSquareIsDark(const cv::Mat& grey,
+                       const TBoard& board,
+                       const std::vector<mrpt::math::TPoint2D>& pixels);
+
 }  // namespace salma::calibration
