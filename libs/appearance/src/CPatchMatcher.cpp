@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "CAgreement.h"
+#include "lengthErrors.h"
 #include "likelihoodTable.h"
 #include "matchKeypoints.h"
 #include "matchRegions.h"
@@ -47,6 +48,19 @@ std::vector<TPointPair> centres(const observations::TPatch& a,
     for (const auto& [i, j] : pairs)
         out.push_back({a.regions[i].x, a.regions[i].y, b.regions[j].x, b.regions[j].y});
     return out;
+}
+
+/// From the pairs; patches without a place in the robot's frame have no shared errors to add.
+std::optional<TRelativePose> relativeOf(const observations::TPatch& a,
+                                        const observations::TPatch& b,
+                                        const std::vector<TPointPair>& pairs) {
+    auto pose = relativePose(pairs);
+    const auto placed = [](const observations::TPatch& patch) {
+        return std::hypot(patch.pose.mean.x(), patch.pose.mean.y()) > 0;
+    };
+    if (pose && placed(a) && placed(b))
+        addPatchErrors(pairs, metricErrors(a), metricErrors(b), *pose);
+    return pose;
 }
 
 }  // namespace
@@ -126,7 +140,7 @@ void CPatchMatcher::matchKeypointsOf(const observations::TPatch& a,
     const auto full = static_cast<std::size_t>(m_options.fullScoreKeypoints);
     out.keypointScore =
         static_cast<double>(out.keypoints.size()) / static_cast<double>(std::max(fewer, full));
-    out.relative = relativePose(agreement.points(out.keypoints));
+    out.relative = relativeOf(a, b, agreement.points(out.keypoints));
 }
 
 void CPatchMatcher::matchRegionsOf(const observations::TPatch& a,
@@ -139,7 +153,8 @@ void CPatchMatcher::matchRegionsOf(const observations::TPatch& a,
     const double demanded =
         m_options.regionsSameView * (1 - apart) + m_options.regionsOppositeView * apart;
     out.regionsAgree = out.regionScore >= demanded;
-    if (!out.relative && out.regionsAgree) out.relative = relativePose(centres(a, b, out.regions));
+    if (!out.relative && out.regionsAgree)
+        out.relative = relativeOf(a, b, centres(a, b, out.regions));
 }
 
 TPatchMatch CPatchMatcher::match(const observations::TPatch& a,

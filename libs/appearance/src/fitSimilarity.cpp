@@ -17,6 +17,26 @@ Eigen::Matrix<double, 2, 4> jacobian(const TPointPair& p) {
     return J;
 }
 
+/** Variance of a coordinate about the best affine map: patches that are stretched wrongly, each in
+ * its own way, still agree on one, and the noise of the single pairs is what is left.
+ * \return Nothing for fewer than 6 pairs. */
+std::optional<double> varianceAboutAffine(const std::vector<TPointPair>& pairs) {
+    if (pairs.size() < 6) return std::nullopt;
+    Eigen::Matrix3d N = Eigen::Matrix3d::Zero();
+    Eigen::Matrix<double, 3, 2> y = Eigen::Matrix<double, 3, 2>::Zero();
+    for (const auto& p : pairs) {
+        const Eigen::Vector3d x(1, p.ax, p.ay);
+        N += x * x.transpose();
+        y += x * Eigen::RowVector2d(p.bx, p.by);
+    }
+    const Eigen::Matrix<double, 3, 2> map = N.ldlt().solve(y);
+    double squares = 0;
+    for (const auto& p : pairs)
+        squares += (Eigen::RowVector2d(p.bx, p.by) - Eigen::RowVector3d(1, p.ax, p.ay) * map)
+                       .squaredNorm();
+    return squares / static_cast<double>(2 * pairs.size() - 6);
+}
+
 }  // namespace
 
 std::optional<TSimilarity> fitSimilarity(const std::vector<TPointPair>& pairs) {
@@ -59,7 +79,8 @@ std::optional<TRelativePose> relativePose(const std::vector<TPointPair>& pairs) 
                        .squaredNorm();
     }
     const auto freedom = static_cast<double>(2 * pairs.size() - 4);
-    const double variance = std::max(kLeastSigma * kLeastSigma, squares / freedom);
+    const double spread = varianceAboutAffine(pairs).value_or(squares / freedom);
+    const double variance = std::max(kLeastSigma * kLeastSigma, spread);
     Eigen::Matrix4d G = Eigen::Matrix4d::Identity();  // to (tx, ty, rotation, log scale)
     const double scale2 = fitted->scale * fitted->scale;
     G.bottomRightCorner<2, 2>() << -d / scale2, c / scale2, c / scale2, d / scale2;
@@ -69,6 +90,36 @@ std::optional<TRelativePose> relativePose(const std::vector<TPointPair>& pairs) 
     out.pairs = pairs.size();
     if (!out.covariance.allFinite()) return std::nullopt;
     return out;
+}
+
+void addPatchErrors(const std::vector<TPointPair>& pairs,
+                    const Eigen::Matrix3d& ofA,
+                    const Eigen::Matrix3d& ofB,
+                    TRelativePose& pose) {
+    double x = 0, y = 0;
+    const auto n = static_cast<double>(pairs.size());
+    for (const auto& p : pairs) x += p.ax / n, y += p.ay / n;
+    double xx = 0, xy = 0, yy = 0;
+    for (const auto& p : pairs) {
+        xx += (p.ax - x) * (p.ax - x);
+        xy += (p.ax - x) * (p.ay - y);
+        yy += (p.ay - y) * (p.ay - y);
+    }
+    const double all = xx + yy;
+    // of (rotation, log scale) and of the middle of b, to (e_u, e_v, turn) of b; a's signs are
+    // opposite
+    const auto jacobianAround = [&](double mx, double my) {
+        const Eigen::RowVector3d turn(-xy / all, xy / all, 1), scale(xx / all, yy / all, 0);
+        Eigen::Matrix<double, 4, 3> J;
+        J.row(0) = Eigen::RowVector3d(mx, 0, -my) - x * scale + y * turn;
+        J.row(1) = Eigen::RowVector3d(0, my, mx) - y * scale - x * turn;
+        J.row(2) = turn;
+        J.row(3) = scale;
+        return J;
+    };
+    const auto A = jacobianAround(x, y);
+    const auto B = jacobianAround(x + pose.similarity.tx, y + pose.similarity.ty);
+    pose.covariance += A * ofA * A.transpose() + B * ofB * B.transpose();
 }
 
 }  // namespace salma::appearance

@@ -21,4 +21,11 @@ std::optional<TSimilarity> fitSimilarity(const std::vector<TPointPair>& pairs);
  * that do not determine it. */
 std::optional<TRelativePose> relativePose(const std::vector<TPointPair>& pairs);
 
+/** Adds what all pairs share: the errors (e_u, e_v, turn) of each patch's metric, as metricErrors()
+ * has them, about the middle of the patch. For similarities near to a shift. */
+void addPatchErrors(const std::vector<TPointPair>& pairs,
+                    const Eigen::Matrix3d& ofA,
+                    const Eigen::Matrix3d& ofB,
+                    TRelativePose& pose);
+
 }  // namespace salma::appearance

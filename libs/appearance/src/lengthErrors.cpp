@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "lengthErrors.h"
 
+#include <mrpt/math/wrap2pi.h>
 #include <salma/appearance/TPolarMeasurement.h>
 
 #include <algorithm>
@@ -23,6 +24,18 @@ TLengthErrors lengthErrors(const observations::TPatch& patch) {
     const double slant = std::tan(std::min(patch.incidence, 1.4));
     const double depth = normal / std::max(h * h, 0.01);
     return {4 * slant * slant * angle + depth, slant * slant * angle + depth};
+}
+
+Eigen::Matrix3d metricErrors(const observations::TPatch& patch) {
+    const TPolarMeasurement m = polarMeasurement(patch);
+    const double slant =
+        std::tan(std::clamp(mrpt::math::wrapToPi(m.z[1] - m.wallAngle - M_PI), -1.4, 1.4));
+    Eigen::Matrix<double, 2, 3> J;
+    J << 1 / m.z[0], slant, -slant, 1 / m.z[0], 0, 0;
+    Eigen::Matrix3d out = Eigen::Matrix3d::Zero();
+    out.topLeftCorner<2, 2>() = J * m.full * J.transpose();
+    out(2, 2) = patch.pose.cov(4, 4);
+    return out;
 }
 
 }  // namespace salma::appearance

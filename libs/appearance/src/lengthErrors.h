@@ -3,6 +3,8 @@
 
 #include <salma/observations/TPatch.h>
 
+#include <Eigen/Core>
+
 namespace salma::appearance {
 
 /// Relative variance of lengths along u and along v on a patch [-].
@@ -15,5 +17,11 @@ struct TLengthErrors {
  * h, one along v by tan(phi) d_phi + dh / h. NaN if the pose is not finite, or is the robot's own.
  */
 TLengthErrors lengthErrors(const observations::TPatch& patch);
+
+/** Covariance of (e_u, e_v, turn): by how much all lengths on a patch err along u and along v, and
+ * how far the patch is turned in its plane [-, -, rad]. From range, bearing and wall angle:
+ * e_u = dr / r + tan(phi) d_phi, e_v = dr / r with phi the signed incidence; the turn is the pose's
+ * pitch. The camera is taken to stand above the robot's origin. The patch must not be there. */
+Eigen::Matrix3d metricErrors(const observations::TPatch& patch);
 
 }  // namespace salma::appearance

@@ -61,7 +61,8 @@ struct TSimilarity {
  * patch frames p (u right, v up, origin at the centre of each rectangle). */
 struct TRelativePose {
     TSimilarity similarity;  //!< From the frame of a to that of b.
-    /// Of (tx, ty, rotation, log scale) [m, m, rad, -], from the spread of the pairs about the fit.
+    /// Of (tx, ty, rotation, log scale) [m, m, rad, -], from the spread of the pairs about the fit, and
+    /// from the poses' covariances, whose errors all pairs of a patch share.
     Eigen::Matrix4d covariance{Eigen::Matrix4d::Zero()};
     std::size_t pairs{0};  //!< Pairs that it rests on.
 };
