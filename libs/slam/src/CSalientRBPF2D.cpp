@@ -71,7 +71,9 @@ CSalientRBPF2D::CSalientRBPF2D(const TRbpfOptions& options, const TLandmarkMapSe
     : m_options(options) {
     m_options.validate();
     registerClasses();  // copies of maps are read by class name
-    mrpt::random::getRandomGenerator().randomize(static_cast<std::uint32_t>(options.seed));
+    // A new one: randomize() would keep half of a pair of normal numbers that was drawn before.
+    mrpt::random::getRandomGenerator() =
+        mrpt::random::CRandomGenerator(static_cast<std::uint32_t>(options.seed));
     CSalientLandmarkMap::TMapDefinition definition;
     definition.setup = std::make_shared<const CLandmarkMapSetup>(maps);
     mrpt::maps::TSetOfMetricMapInitializers initializers;
