@@ -80,6 +80,11 @@ std::string calibrationIni(const TCalibration& c) {
         "# Learned by `salma-landmarks calibrate`; every other key keeps its default.\n[matcher]\n";
     text += linesOf(c.matcher.asIni("matcher"), {"duplicate_rate", "score_knots", "log_lr_knots",
                                                  "keypoint_score_knots", "keypoint_log_lr_knots"});
+    if (c.decorrelated.angle) {
+        slam::TEkfOptions ekf;
+        ekf.decorrelation = *c.decorrelated.angle;
+        text += "\n[ekf]\n" + linesOf(ekf.asIni("ekf"), {"decorrelation_deg"});
+    }
     return text;
 }
 

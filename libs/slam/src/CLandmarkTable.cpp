@@ -8,6 +8,12 @@
 
 namespace salma::slam {
 
+double viewingAngle(const association::TMeasurement& measurement) {
+    if (!std::isnan(measurement.wallAngle))
+        return mrpt::math::wrapToPi(measurement.z[1] + M_PI - measurement.wallAngle);
+    return measurement.patch ? measurement.patch->incidence : 0;
+}
+
 CLandmarkTable::CLandmarkTable(int maxPatches, double patchSpread)
     : m_maxPatches(static_cast<std::size_t>(maxPatches)), m_patchSpread(patchSpread) {}
 
@@ -38,6 +44,7 @@ void CLandmarkTable::setFirst(std::size_t index,
 }
 
 void CLandmarkTable::erase(std::size_t index) {
+    for (TLandmark& other : m_landmarks) other.lookAlikes.erase(m_landmarks[index].id);
     m_landmarks.erase(m_landmarks.begin() + static_cast<std::ptrdiff_t>(index));
 }
 
@@ -46,7 +53,7 @@ void CLandmarkTable::restore(std::vector<TLandmark> landmarks, int nextId) {
     m_nextId = nextId;
 }
 
-void CLandmarkTable::sight(std::size_t index,
+bool CLandmarkTable::sight(std::size_t index,
                            const association::TMeasurement& measurement,
                            double time,
                            const THeading& heading) {
@@ -54,9 +61,7 @@ void CLandmarkTable::sight(std::size_t index,
     ++landmark.sightings;
     landmark.lastTime = time;
     if (!landmark.identity) landmark.identity = measurement.identity;
-    double angle = measurement.patch ? measurement.patch->incidence : 0;
     if (!std::isnan(measurement.wallAngle)) {
-        angle = mrpt::math::wrapToPi(measurement.z[1] + M_PI - measurement.wallAngle);
         const double sigma = std::hypot(measurement.wallAngleSigma, heading.sigma);
         if (std::isnan(landmark.wallAngle) || sigma < landmark.wallAngleSigma) {
             landmark.wallAngle = mrpt::math::wrapToPi(heading.mean + measurement.wallAngle);
@@ -64,17 +69,19 @@ void CLandmarkTable::sight(std::size_t index,
         }
         if (std::isnan(landmark.firstWallAngle)) landmark.firstWallAngle = landmark.wallAngle;
     }
-    if (measurement.patch) addView(landmark, {measurement.patch, angle});
+    return measurement.patch && addView(landmark, {measurement.patch, viewingAngle(measurement)});
 }
 
-void CLandmarkTable::addView(TLandmark& landmark, const TView& view) {
+bool CLandmarkTable::addView(TLandmark& landmark, const TView& view) {
     for (const TView& kept : landmark.views)
-        if (!(std::abs(mrpt::math::wrapToPi(kept.angle - view.angle)) >= m_patchSpread)) return;
+        if (!(std::abs(mrpt::math::wrapToPi(kept.angle - view.angle)) >= m_patchSpread))
+            return false;
     landmark.views.push_back(view);
-    if (landmark.views.size() <= m_maxPatches) return;
+    if (landmark.views.size() <= m_maxPatches) return true;
     landmark.views.erase(std::max_element(
         landmark.views.begin(), landmark.views.end(),
         [](const TView& a, const TView& b) { return std::abs(a.angle) < std::abs(b.angle); }));
+    return landmark.views.back().patch == view.patch;
 }
 
 association::TPredictedLandmark CLandmarkTable::expected(std::size_t index,
@@ -98,6 +105,33 @@ double CLandmarkTable::bestRatio(std::size_t index,
     for (const TView& view : m_landmarks[index].views)
         best = std::fmax(best, ratio(seen, *view.patch));  // fmax passes over NaN
     return best;
+}
+
+void CLandmarkTable::findLookAlikes(std::size_t index, const PatchRatio& ratio) {
+    TLandmark& landmark = m_landmarks[index];
+    if (landmark.views.empty()) return;
+    const TView& view = landmark.views.back();
+    const auto change = [&](const TView& other) {
+        return std::abs(mrpt::math::wrapToPi(other.angle - view.angle));
+    };
+    for (std::size_t k = 0; k < m_landmarks.size(); ++k) {
+        TLandmark& other = m_landmarks[k];
+        if (k == index || other.views.empty() || landmark.lookAlikes.count(other.id) != 0) continue;
+        const auto nearest =
+            std::min_element(other.views.begin(), other.views.end(),
+                             [&](const TView& a, const TView& b) { return change(a) < change(b); });
+        if (!(ratio(*view.patch, *nearest->patch) > 0)) continue;
+        landmark.lookAlikes.insert(other.id);
+        other.lookAlikes.insert(landmark.id);
+    }
+}
+
+double CLandmarkTable::lookAlikeShare(std::size_t index) const {
+    if (m_landmarks[index].lookAlikes.empty()) return 0;
+    const auto withViews = std::count_if(m_landmarks.begin(), m_landmarks.end(),
+                                         [](const TLandmark& l) { return !l.views.empty(); });
+    return static_cast<double>(m_landmarks[index].lookAlikes.size()) /
+           static_cast<double>(withViews);
 }
 
 }  // namespace salma::slam

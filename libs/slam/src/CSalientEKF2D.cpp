@@ -43,6 +43,8 @@ CSalientEKF2D::CSalientEKF2D(const TEkfOptions& ekf,
     : m_ekf(ekf),
       m_associator(association::createAssociator(association)),
       m_ratio(std::move(ratio)),
+      m_evidenceLimits{ekf.decorrelation, ekf.trackGap, association.forbidLogLr,
+                       association.gateQuantile},
       m_landmarks(ekf.maxPatches, ekf.patchSpread),
       m_provisionalCorners(cornerTracking(ekf)),
       m_provisionalEntities(tracking, m_ratio) {
@@ -117,7 +119,7 @@ void CSalientEKF2D::enterLandmark(std::size_t observation, std::size_t index) {
     m_now.landmarks[observation] = static_cast<int>(index);
 }
 
-TAssociationProblem CSalientEKF2D::problem() const {
+TAssociationProblem CSalientEKF2D::problem() {
     const auto size = static_cast<Eigen::Index>(m_xkk.size());
     const Eigen::Map<const Eigen::VectorXd> mean(&m_xkk[0], size);
     const Eigen::Map<const RowMatrix> covariance(&m_pkk(0, 0), size, size);
@@ -142,12 +144,13 @@ TAssociationProblem CSalientEKF2D::problem() const {
         result.landmarks.push_back(expected);
     }
     result.visibility = [visibilities](std::size_t landmark) { return visibilities[landmark]; };
-    if (m_ratio)
+    if (m_ratio) {
+        m_now.evidence = std::make_unique<CStepEvidence>(m_evidenceLimits, m_landmarks, m_ratio,
+                                                         result, m_now.input.time);
         result.logRatio = [this](std::size_t observation, std::size_t landmark) {
-            const auto& seen = m_now.input.measurements[observation].patch;
-            return seen ? m_landmarks.bestRatio(landmark, *seen, m_ratio)
-                        : std::numeric_limits<double>::quiet_NaN();
+            return m_now.evidence->logRatio(observation, landmark);
         };
+    }
     return result;
 }
 
@@ -206,7 +209,11 @@ void CSalientEKF2D::learn() {
         const bool created = m_now.decisions[i] == EDecision::created;
         if (!created && m_now.decisions[i] != EDecision::paired) continue;
         const auto index = static_cast<std::size_t>(m_now.landmarks[i]);
-        m_landmarks.sight(index, measurements[i], m_now.input.time, heading());
+        // Asked before the table changes: what the pairing was judged by.
+        const bool counted = !created && m_now.evidence && m_now.evidence->counts(i, index);
+        const bool kept = m_landmarks.sight(index, measurements[i], m_now.input.time, heading());
+        if (counted) m_landmarks.setCounted(index, viewingAngle(measurements[i]));
+        if (kept && m_ratio) m_landmarks.findLookAlikes(index, m_ratio);
         if (!created) continue;
         const auto row = static_cast<Eigen::Index>(3 + 2 * index);
         m_landmarks.setFirst(index, Eigen::Vector2d(m_xkk[row], m_xkk[row + 1]),

@@ -21,6 +21,10 @@ void TEkfOptions::visit(config::COptionVisitor& v) {
               "views of a salient landmark that are kept");
     v.degrees("patch_spread_deg", patchSpread, config::between(0, 90),
               "least difference in viewing angle between two kept views");
+    v.degrees("decorrelation_deg", decorrelation, config::between(0, 180),
+              "appearance counts again in one track after this change of the viewing angle");
+    v.number("track_gap_s", trackGap, config::atLeast(0),
+             "a landmark not paired for longer begins another track");
 }
 
 }  // namespace salma::slam

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <vector>
 
 namespace salma::slam {
@@ -20,6 +21,10 @@ struct TView {
     std::shared_ptr<const observations::TPatch> patch;
     double angle{0};  //!< From the wall's normal to the robot, counter-clockwise [rad].
 };
+
+/// From the wall's normal to the robot, counter-clockwise, as a measurement states it; without a
+/// wall its patch's incidence [rad].
+double viewingAngle(const association::TMeasurement& measurement);
 
 /// What is known of a landmark besides its place in the filter.
 struct TLandmark {
@@ -35,6 +40,9 @@ struct TLandmark {
     Eigen::Matrix2d firstCovariance{Eigen::Matrix2d::Zero()};
     std::size_t sightings{0};
     double firstTime{0}, lastTime{0};  //!< [s since 1970]
+    /// Viewing angle at which the appearance last counted for a pairing; none before the first.
+    std::optional<double> countedAngle;
+    std::set<int> lookAlikes;  //!< Ids of other landmarks of the map that look like this one.
 };
 
 /// Heading of the robot when it sees something.
@@ -62,14 +70,16 @@ class CLandmarkTable {
                   const Eigen::Vector2d& mean,
                   const Eigen::Matrix2d& covariance);
 
+    /// The others forget that they looked like it.
     void erase(std::size_t index);
 
     /// Puts back what another table held. \param nextId Above all ids.
     void restore(std::vector<TLandmark> landmarks, int nextId);
     int nextId() const { return m_nextId; }
 
-    /// Counts a sighting and learns view, wall angle and identity from it.
-    void sight(std::size_t index,
+    /// Counts a sighting and learns view, wall angle and identity from it. \return True if the view
+    /// is kept.
+    bool sight(std::size_t index,
                const association::TMeasurement& measurement,
                double time,
                const THeading& heading);
@@ -82,8 +92,17 @@ class CLandmarkTable {
                      const observations::TPatch& seen,
                      const PatchRatio& ratio) const;
 
+    /// Notes which other landmarks look like the newest view of this one (ratio above 1), each
+    /// judged by its view from the nearest angle. Both sides learn of it.
+    void findLookAlikes(std::size_t index, const PatchRatio& ratio);
+
+    /// Share of the salient landmarks of the map that look like this one, [0, 1).
+    double lookAlikeShare(std::size_t index) const;
+
+    void setCounted(std::size_t index, double angle) { m_landmarks[index].countedAngle = angle; }
+
  private:
-    void addView(TLandmark& landmark, const TView& view);
+    bool addView(TLandmark& landmark, const TView& view);
 
     std::size_t m_maxPatches;
     double m_patchSpread;

@@ -6,6 +6,7 @@
 #include <salma/landmarks/CWideBaselineTracker.h>
 #include <salma/slam/CLandmarkTable.h>
 #include <salma/slam/CSlamBackend.h>
+#include <salma/slam/CStepEvidence.h>
 #include <salma/slam/TEkfOptions.h>
 #include <salma/slam/blockFilter.h>
 
@@ -59,6 +60,7 @@ class CSalientEKF2D : public mrpt::slam::CRangeBearingKFSLAM2D, public CSlamBack
     /// What the current step has come to so far.
     struct TCurrentStep {
         TStepInput input;
+        std::unique_ptr<CStepEvidence> evidence;               //!< None without appearance.
         std::optional<association::TAssociation> association;  //!< Made once, after prediction.
         std::vector<EDecision> decisions;                      //!< By measurement.
         std::vector<int> landmarks;  //!< By measurement, index in the state; -1: none.
@@ -71,7 +73,7 @@ class CSalientEKF2D : public mrpt::slam::CRangeBearingKFSLAM2D, public CSlamBack
     void stepByBlock();
     void stepByMrpt();
     void associate();
-    association::TAssociationProblem problem() const;
+    association::TAssociationProblem problem();
     void holdBack(association::ELandmarkKind kind, landmarks::CWideBaselineTracker& tracker);
     landmarks::TSighting sightingOf(const association::TMeasurement& measurement) const;
     void enterLandmark(std::size_t observation, std::size_t index);
@@ -86,6 +88,7 @@ class CSalientEKF2D : public mrpt::slam::CRangeBearingKFSLAM2D, public CSlamBack
     TEkfOptions m_ekf;
     std::unique_ptr<association::CDataAssociator> m_associator;
     PatchRatio m_ratio;
+    TEvidenceLimits m_evidenceLimits;
     CLandmarkTable m_landmarks;
     landmarks::CWideBaselineTracker m_provisionalCorners, m_provisionalEntities;
     association::TDropCounts m_dropped;
