@@ -52,6 +52,10 @@ void CCalibrateCommand::addOptions() {
                      "sightings of each kind that the bins begin with, spread evenly")
         ->capture_default_str();
     m_command
+        ->add_option("--per-poster", m_options.perPoster,
+                     "independent sightings that a poster, or a pair of posters, is worth")
+        ->capture_default_str();
+    m_command
         ->add_option("--spoilt-rate", m_options.spoiltRate,
                      "share of real views that are spoilt, by glare or people in front")
         ->capture_default_str();

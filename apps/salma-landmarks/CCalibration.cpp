@@ -104,10 +104,23 @@ TRunSet CCalibration::load(const std::vector<std::string>& folders) const {
     return set;
 }
 
+/// Views of one poster resemble each other in what they score: however many there are, they are
+/// worth no more than `perPoster`.
+TIndependent CCalibration::worthOf(const TRunSet& set) const {
+    std::set<std::pair<std::string, std::string>> same, other;
+    for (const auto& pairs : set.pairs)
+        for (const auto& pair : pairs) {
+            const auto key = std::minmax(pair.textureA, pair.textureB);
+            if (pair.kind == EPair::same) same.insert(key);
+            if (pair.kind == EPair::other) other.insert(key);
+        }
+    return {m_options.perPoster * static_cast<double>(same.size()),
+            m_options.perPoster * static_cast<double>(other.size())};
+}
+
 void CCalibration::learn(TCalibration& calibration) const {
     const TRunSet& set = calibration.learning;
-    std::size_t sightings = 0;
-    for (const auto& run : set.runs) sightings += run.seen.size();
+    const TIndependent independent = worthOf(set);
     const auto ofBoth = [](const TLabelledPair& pair) {
         return pair.evidence == EEvidence::both ? pair.score : -1;
     };
@@ -119,10 +132,10 @@ void CCalibration::learn(TCalibration& calibration) const {
         throw std::invalid_argument(namesOf(set) + ": no pairs of " +
                                     (same.empty() ? "one poster" : "different posters") +
                                     " whose regions can be compared");
-    calibration.both = learnTable(same, other, sightings, m_options);
+    calibration.both = learnTable(same, other, independent, m_options);
     calibration.keypoints =
         learnTable(scores(set, EPair::same, ofKeypoints), scores(set, EPair::other, ofKeypoints),
-                   sightings, m_options);
+                   independent, m_options);
 
     const auto logRatio = [&](const TLabelledPair& pair) {
         if (pair.evidence == EEvidence::none) return 0.0;

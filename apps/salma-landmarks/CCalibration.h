@@ -62,6 +62,7 @@ class CCalibration {
 
  private:
     TRunSet load(const std::vector<std::string>& folders) const;
+    TIndependent worthOf(const TRunSet& set) const;
     void learn(TCalibration& calibration) const;
     void judge(const TCalibration& calibration, TRunSet& set) const;
 

@@ -58,7 +58,7 @@ void setKnots(TRatioTable& table) {
 
 TRatioTable learnTable(const std::vector<double>& same,
                        const std::vector<double>& other,
-                       std::size_t sightings,
+                       const TIndependent& independent,
                        const TCalibrationOptions& options) {
     TRatioTable table;
     const auto n = static_cast<std::size_t>(options.bins);
@@ -70,10 +70,11 @@ TRatioTable learnTable(const std::vector<double>& same,
     count(same, "same", table.bins, &TRatioBin::same);
     count(other, "other", table.bins, &TRatioBin::other);
 
-    const auto scaleOf = [&](std::size_t pairs) {
-        return std::min(1.0, static_cast<double>(sightings) / static_cast<double>(pairs));
+    const auto scaleOf = [](double worth, std::size_t pairs) {
+        return std::min(1.0, worth / static_cast<double>(pairs));
     };
-    const double sameScale = scaleOf(same.size()), otherScale = scaleOf(other.size());
+    const double sameScale = scaleOf(independent.same, same.size());
+    const double otherScale = scaleOf(independent.other, other.size());
     const double prior = options.priorCount / static_cast<double>(n);  // of a bin
     const double sameTotal = sameScale * static_cast<double>(same.size()) + options.priorCount;
     const double otherTotal = otherScale * static_cast<double>(other.size()) + options.priorCount;

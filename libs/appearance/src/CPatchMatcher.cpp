@@ -101,7 +101,7 @@ void TMatcherOptions::visit(config::COptionVisitor& v) {
              "share of other entities that look the same");
     v.numbers("score_knots", scoreKnots, between(0, 1), "ascending scores of the table");
     v.numbers("log_lr_knots", logLrKnots, anyNumber(),
-              "log p(score|same) / p(score|other) at each, measured on distinct posters");
+              "log p(score|same) / p(score|other) at each, learned from simulated runs");
     v.numbers("keypoint_score_knots", keypointScoreKnots, between(0, 1),
               "the same for patches without regions");
     v.numbers("keypoint_log_lr_knots", keypointLogLrKnots, anyNumber(), "and the ratios at each");

@@ -139,6 +139,17 @@ TEST(SalmaLandmarks, LearnsATableThatSalmaSlamReads) {
     }
 }
 
+TEST(SalmaLandmarks, ShippedTablesAreTheDefaults) {
+    const std::string learned = SALMA_SOURCE_DIR "/share/calibration.ini";
+    const auto read = runProcess({program("salma-slam"), learned, "--print-config"});
+    EXPECT_EQ(read.exitCode, 0) << read.output;
+    EXPECT_EQ(read.output, runProcess({program("salma-slam"), "--print-config"}).output);
+    for (const std::string key :
+         {"\nduplicate_rate ", "\nscore_knots ", "\nlog_lr_knots ", "\nkeypoint_score_knots ",
+          "\nkeypoint_log_lr_knots ", "\ndecorrelation_deg "})
+        EXPECT_NE(readFile(learned).find(key), std::string::npos) << key;
+}
+
 TEST(SalmaLandmarks, GivesTheSameTwiceAndTakesRecordsThatAreStored) {
     const CTemporaryFolder folder;
     const auto learn = [&](const std::string& from, const std::string& name) {

@@ -38,13 +38,18 @@ struct TMatcherOptions : public config::TStrictOptions<TMatcherOptions> {
     int fullScoreKeypoints{20};       //!< A patch with fewer keypoints cannot score 1.
     double regionsSameView{0.5};      //!< Region score from which regions agree, seen alike ...
     double regionsOppositeView{0.4};  //!< ... and seen from directions 130 deg apart.
-    double duplicateRate{0.02};       //!< Share of other entities that look the same.
-    /// Scores, ascending from 0 to 1, and log p(score|same)/p(score|other) at each.
-    std::vector<double> scoreKnots{0, 0.1, 0.2, 0.25, 0.35, 0.45, 1};
-    std::vector<double> logLrKnots{-3, -2.5, -2, -1.5, 1, 5.2, 5.2};
+    double duplicateRate{0.05};       //!< Share of other entities that look the same.
+    /// Scores, ascending from 0 to 1, and log p(score|same)/p(score|other) at each, as
+    /// `salma-landmarks calibrate` learned them: share/calibration.ini.
+    std::vector<double> scoreKnots{0,     0.025, 0.075, 0.125, 0.175, 0.275, 0.325, 0.375,
+                                   0.425, 0.475, 0.525, 0.575, 0.625, 0.675, 0.725, 1};
+    std::vector<double> logLrKnots{-2.94, -2.94, -2.73, -2.39, -1.94, -1.94, -1.65, 0.39,
+                                   1.77,  2.52,  3.13,  3.69,  4.1,   4.71,  5.05,  5.05};
     /// The same for patches without regions.
-    std::vector<double> keypointScoreKnots{0, 0.1, 0.2, 0.3, 1};
-    std::vector<double> keypointLogLrKnots{-3, 0, 1.4, 5.2, 5.2};
+    std::vector<double> keypointScoreKnots{0,     0.025, 0.075, 0.125, 0.175, 0.225, 0.275, 0.325,
+                                           0.375, 0.425, 0.475, 0.525, 0.575, 0.625, 1};
+    std::vector<double> keypointLogLrKnots{-2.84, -2.84, 1.03, 1.08, 1.08, 2.72, 2.77, 3.13,
+                                           3.19,  3.44,  3.86, 4.41, 4.65, 4.67, 4.67};
 
     void visit(config::COptionVisitor& v);
     void validate() const;
@@ -79,10 +84,10 @@ struct TPatchMatch {
     double score{0};               //!< In [0, 1]: mean of both scores, or the keypoints' alone.
     double logLikelihoodRatio{0};  //!< log p(score | same entity) / p(score | another one).
     EEvidence evidence{EEvidence::none};
-    double keypointScore{0};       //!< In [0, 1].
-    double regionScore{0};         //!< In [0, 1].
-    bool regionsAgree{false};      //!< The region score is above what the two views demand.
-    double viewDifference{0};      //!< Between the directions of the two views [rad].
+    double keypointScore{0};   //!< In [0, 1].
+    double regionScore{0};     //!< In [0, 1].
+    bool regionsAgree{false};  //!< The region score is above what the two views demand.
+    double viewDifference{0};  //!< Between the directions of the two views [rad].
     /// Hellinger distance of the walls around, [0, 1]; nothing if one is not described. It does not
     /// enter the ratio: most posters of a building hang on the same wall.
     std::optional<double> textureDistance;
