@@ -41,15 +41,15 @@ struct TMatcherOptions : public config::TStrictOptions<TMatcherOptions> {
     double duplicateRate{0.05};       //!< Share of other entities that look the same.
     /// Scores, ascending from 0 to 1, and log p(score|same)/p(score|other) at each, as
     /// `salma-landmarks calibrate` learned them: share/calibration.ini.
-    std::vector<double> scoreKnots{0,     0.025, 0.075, 0.125, 0.175, 0.275, 0.325, 0.375,
+    std::vector<double> scoreKnots{0,     0.025, 0.075, 0.125, 0.175, 0.225, 0.275, 0.325, 0.375,
                                    0.425, 0.475, 0.525, 0.575, 0.625, 0.675, 0.725, 1};
-    std::vector<double> logLrKnots{-2.94, -2.94, -2.73, -2.39, -1.94, -1.94, -1.65, 0.39,
-                                   1.77,  2.52,  3.13,  3.69,  4.1,   4.71,  5.05,  5.05};
+    std::vector<double> logLrKnots{-2.93, -2.93, -2.75, -2.41, -2.3, -2.3, -0.63, -0.24, 1.39,
+                                   2.04,  2.52,  3.16,  3.67,  4.1,  4.68, 5.05,  5.05};
     /// The same for patches without regions.
     std::vector<double> keypointScoreKnots{0,     0.025, 0.075, 0.125, 0.175, 0.225, 0.275, 0.325,
                                            0.375, 0.425, 0.475, 0.525, 0.575, 0.625, 1};
-    std::vector<double> keypointLogLrKnots{-2.84, -2.84, 1.03, 1.08, 1.08, 2.72, 2.77, 3.13,
-                                           3.19,  3.44,  3.86, 4.41, 4.65, 4.67, 4.67};
+    std::vector<double> keypointLogLrKnots{-2.81, -2.81, 1.03, 1.27, 1.34, 2.79, 2.91, 3.18,
+                                           3.18,  3.41,  3.86, 4.41, 4.61, 4.67, 4.67};
 
     void visit(config::COptionVisitor& v);
     void validate() const;
@@ -66,8 +66,8 @@ struct TSimilarity {
  * patch frames p (u right, v up, origin at the centre of each rectangle). */
 struct TRelativePose {
     TSimilarity similarity;  //!< From the frame of a to that of b.
-    /// Of (tx, ty, rotation, log scale) [m, m, rad, -], from the spread of the pairs about the fit, and
-    /// from the poses' covariances, whose errors all pairs of a patch share.
+    /// Of (tx, ty, rotation, log scale) [m, m, rad, -], from the spread of the pairs about the fit,
+    /// and from the poses' covariances, whose errors all pairs of a patch share.
     Eigen::Matrix4d covariance{Eigen::Matrix4d::Zero()};
     std::size_t pairs{0};  //!< Pairs that it rests on.
 };

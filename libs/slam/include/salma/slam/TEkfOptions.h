@@ -25,7 +25,7 @@ struct TEkfOptions : public config::TStrictOptions<TEkfOptions> {
     int maxPatches{4};              //!< Views of a salient landmark that are kept.
     double patchSpread{M_PI / 12};  //!< Two kept views differ at least so much in incidence [rad].
     /// In one track appearance counts again after this change of the viewing angle [rad].
-    double decorrelation{M_PI / 3};
+    double decorrelation{35 * M_PI / 180};
     double trackGap{10};  //!< A landmark that was not paired for longer begins another track [s].
 
     void visit(config::COptionVisitor& v);
