@@ -68,6 +68,7 @@ mrpt::obs::CObservationBearingRange ranges(double range, double bearing) {
     mrpt::obs::CObservationBearingRange::TMeasurement m;
     m.range = static_cast<float>(range);
     m.yaw = static_cast<float>(bearing);
+    m.pitch = 0;
     m.landmarkID = mrpt::obs::INVALID_LANDMARK_ID;
     result.sensedData.push_back(m);
     result.validCovariances = false;
