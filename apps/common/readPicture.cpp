@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <system_error>
-#include <vector>
 
 namespace salma::apps {
 namespace {
@@ -43,6 +43,17 @@ cv::Mat readGrey(const std::string& file) {
     if (grey.empty()) fail(file, "cannot be read as a picture");
     if (grey.depth() != CV_8U) fail(file, "has more than 8 bits for each channel");
     return grey;
+}
+
+void rejectEqualStems(const std::vector<std::string>& pictures) {
+    std::map<std::string, std::string> seen;
+    for (const auto& picture : pictures) {
+        const auto [other, isNew] =
+            seen.emplace(std::filesystem::path(picture).stem().string(), picture);
+        if (!isNew)
+            throw std::invalid_argument(other->second + " and " + picture +
+                                        ": results of both would be named " + other->first);
+    }
 }
 
 }  // namespace salma::apps

@@ -3,6 +3,7 @@
 
 #include <opencv2/core/mat.hpp>
 #include <string>
+#include <vector>
 
 namespace salma::apps {
 
@@ -10,5 +11,9 @@ namespace salma::apps {
  * \throw std::runtime_error naming the file, if it is missing, not a picture, breaks off, or has
  * more than 8 bits for each channel. */
 cv::Mat readGrey(const std::string& file);
+
+/// For results that are named after their pictures.
+/// \throw std::invalid_argument naming both files, if two have one name without folder and ending.
+void rejectEqualStems(const std::vector<std::string>& pictures);
 
 }  // namespace salma::apps

@@ -3,8 +3,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <map>
 #include <stdexcept>
 
 #include "CProgressBar.h"
@@ -15,18 +13,6 @@ namespace {
 
 std::string asString(const cv::Size& size) {
     return std::to_string(size.width) + "x" + std::to_string(size.height);
-}
-
-/// Results are named after the pictures. \throw std::runtime_error if two have one name.
-void rejectEqualStems(const std::vector<std::string>& images) {
-    std::map<std::string, std::string> seen;
-    for (const auto& image : images) {
-        const auto [other, isNew] =
-            seen.emplace(std::filesystem::path(image).stem().string(), image);
-        if (!isNew)
-            throw std::runtime_error(other->second + " and " + image +
-                                     ": results of both would be named " + other->first);
-    }
 }
 
 }  // namespace

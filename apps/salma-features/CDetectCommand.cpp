@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
-#include <map>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
@@ -27,18 +26,6 @@ constexpr auto kExamples =
 
 void writePicture(const std::string& file, const cv::Mat& picture) {
     if (!cv::imwrite(file, picture)) throw std::runtime_error(file + ": cannot be written");
-}
-
-/// Results are named after the pictures. \throw std::invalid_argument if two have one name.
-void rejectEqualStems(const std::vector<std::string>& images) {
-    std::map<std::string, std::string> seen;
-    for (const auto& image : images) {
-        const auto [other, isNew] =
-            seen.emplace(std::filesystem::path(image).stem().string(), image);
-        if (!isNew)
-            throw std::invalid_argument(other->second + " and " + image +
-                                        ": results of both would be named " + other->first);
-    }
 }
 
 }  // namespace

@@ -6,8 +6,8 @@
 #include <salma/landmarks/CFrontEnd.h>
 #include <salma/landmarks/CWideBaselineTracker.h>
 #include <salma/laser/CCornerExtractor.h>
-#include <salma/laser/CPlaceString.h>
 #include <salma/laser/CLineExtractor.h>
+#include <salma/laser/CPlaceString.h>
 #include <salma/laser/CWallOdometry.h>
 #include <salma/slam/CLandmarkMapSetup.h>
 #include <salma/slam/COdometryNoise.h>

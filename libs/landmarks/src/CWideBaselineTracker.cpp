@@ -54,7 +54,7 @@ bool CWideBaselineTracker::confirms(const TSighting& sighting) {
     double distance = std::numeric_limits<double>::infinity();
     for (auto& entity : m_entities) {
         if (entity.lastStep == m_step || !continues(sighting, entity)) continue;
-        const double apart = (entity.views.back().position - sighting.position).norm();
+        const double apart = (entity.last.position - sighting.position).norm();
         if (!(apart < distance) || !lookAlike(sighting, entity)) continue;
         distance = apart;
         nearest = &entity;
@@ -67,7 +67,7 @@ bool CWideBaselineTracker::confirms(const TSighting& sighting) {
 }
 
 bool CWideBaselineTracker::continues(const TSighting& sighting, const TEntity& entity) const {
-    const TSighting& last = entity.views.back();
+    const TSighting& last = entity.last;
     if (last.convex != sighting.convex ||
         std::isnan(last.wallAngle) != std::isnan(sighting.wallAngle))
         return false;
@@ -96,17 +96,18 @@ bool CWideBaselineTracker::lookAlike(const TSighting& sighting, const TEntity& e
 
 void CWideBaselineTracker::add(const TSighting& sighting, TEntity& entity) const {
     entity.lastStep = m_step;
-    const auto same =
-        std::find_if(entity.views.begin(), entity.views.end(), [&](const TSighting& view) {
-            return (view.robot - sighting.robot).norm() < m_options.minTravel;
-        });
-    if (same != entity.views.end()) entity.views.erase(same);
-    entity.views.push_back(sighting);
+    entity.last = sighting;
+    // The first view of a place stays: one that followed the robot would never be far from it.
+    const auto isSamePlace = [&](const TSighting& view) {
+        return (view.robot - sighting.robot).norm() < m_options.minTravel;
+    };
+    if (std::none_of(entity.views.begin(), entity.views.end(), isSamePlace))
+        entity.views.push_back(sighting);
 }
 
 bool CWideBaselineTracker::isConfirmed(const TEntity& entity) const {
     if (entity.views.size() < static_cast<std::size_t>(m_options.minViews)) return false;
-    double low = std::numeric_limits<double>::infinity(), high = -low;
+    double low = viewAngle(entity.last), high = low;
     for (const auto& view : entity.views) {
         const double angle = viewAngle(view);
         low = std::min(low, angle);

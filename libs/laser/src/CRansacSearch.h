@@ -33,7 +33,7 @@ class CRansacSearch : public CLineSearch {
     std::uint64_t m_random;  //!< State of the random numbers.
     std::vector<THypothesis> m_hypotheses;
     std::vector<std::uint8_t> m_covered;  //!< Of each point, hypotheses whose runs pass over it.
-    bool m_fruitful{true};  //!< The last drawing gave a line.
+    bool m_fruitful{true};                //!< The last drawing gave a line.
 };
 
 }  // namespace salma::laser

@@ -96,9 +96,8 @@ void CBuildingBuilder::addBranch() {
         if (atStart == beginsAtStart) return;
     }
     // exactly at the parent's side: a gap of a rounding error would be a wall
-    const TArea area = highSide
-                           ? areaOf(p.alongX, from, from + width, high(p), high(p) + length)
-                           : areaOf(p.alongX, from, from + width, low(p) - length, low(p));
+    const TArea area = highSide ? areaOf(p.alongX, from, from + width, high(p), high(p) + length)
+                                : areaOf(p.alongX, from, from + width, low(p) - length, low(p));
     if (!fits(area, kApart, parent)) return;
     m_building.m_corridors.push_back({area, !p.alongX});
     m_branches.push_back({parent, from + width / 2, !atSide && atStart, !atSide && !atStart});

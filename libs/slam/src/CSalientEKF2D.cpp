@@ -12,7 +12,6 @@
 namespace salma::slam {
 
 using association::ELandmarkKind;
-using association::EVerdict;
 using association::TAssociationProblem;
 using association::TMeasurement;
 
@@ -160,19 +159,7 @@ void CSalientEKF2D::associate() {
     m_dropped += m_now.association->dropped;
     for (const auto& decision : m_now.association->decisions) {
         m_now.landmarks.push_back(decision.landmark);
-        switch (decision.verdict) {
-            case EVerdict::paired:
-                m_now.decisions.push_back(EDecision::paired);
-                break;
-            case EVerdict::created:
-                m_now.decisions.push_back(EDecision::created);
-                break;
-            case EVerdict::deferred:
-                m_now.decisions.push_back(EDecision::deferred);
-                break;
-            case EVerdict::clutter:
-                m_now.decisions.push_back(EDecision::clutter);
-        }
+        m_now.decisions.push_back(decisionOf(decision.verdict));
     }
     holdBack(ELandmarkKind::corner, m_provisionalCorners);
     holdBack(ELandmarkKind::salient, m_provisionalEntities);

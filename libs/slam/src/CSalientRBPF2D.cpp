@@ -50,21 +50,6 @@ Eigen::Matrix3d planar(const mrpt::math::CMatrixDouble66& covariance) {
     return result;
 }
 
-EDecision decisionOf(const CSalientLandmarkMap::TOutcome& outcome) {
-    using association::EVerdict;
-    if (outcome.provisional) return EDecision::provisional;
-    switch (outcome.decision.verdict) {
-        case EVerdict::paired:
-            return EDecision::paired;
-        case EVerdict::created:
-            return EDecision::created;
-        case EVerdict::deferred:
-            return EDecision::deferred;
-        default:
-            return EDecision::clutter;
-    }
-}
-
 }  // namespace
 
 CSalientRBPF2D::CSalientRBPF2D(const TRbpfOptions& options, const TLandmarkMapSetup& maps)
@@ -85,8 +70,8 @@ CSalientRBPF2D::CSalientRBPF2D(const TRbpfOptions& options, const TLandmarkMapSe
 
 CSalientRBPF2D::~CSalientRBPF2D() = default;
 
-const CSalientLandmarkMap& CSalientRBPF2D::mapOf(std::size_t particle) const {
-    return dynamic_cast<const CSalientLandmarkMap&>(
+CSalientLandmarkMap& CSalientRBPF2D::mapOf(std::size_t particle) const {
+    return dynamic_cast<CSalientLandmarkMap&>(
         *m_particles->m_particles[particle].d->mapTillNow.maps.front());
 }
 
@@ -124,9 +109,9 @@ void CSalientRBPF2D::move(const TStepInput& step) {
 }
 
 void CSalientRBPF2D::keepDecisions() {
+    if (m_steps.back().input.measurements.empty()) return;
     for (std::size_t i = 0; i < m_particles->m_particles.size(); ++i) {
-        auto& map = const_cast<CSalientLandmarkMap&>(mapOf(i));
-        if (m_steps.back().input.measurements.empty()) continue;
+        CSalientLandmarkMap& map = mapOf(i);
         m_decided[++m_lastKey] = {map.tag, m_steps.size() - 1, map.lastOutcomes()};
         map.tag = m_lastKey;
     }
@@ -200,7 +185,8 @@ void CSalientRBPF2D::noteDecisions(const TDecided& decided, TRunRecord& record) 
     auto& sight = record.trajectory[decided.step].sight;
     for (std::size_t i = 0; i < decided.outcomes.measurements.size(); ++i) {
         const auto& outcome = decided.outcomes.measurements[i];
-        const EDecision decision = decisionOf(outcome);
+        const EDecision decision =
+            outcome.provisional ? EDecision::provisional : decisionOf(outcome.decision.verdict);
         record.associations.push_back(
             associationRow(step.input, i, decision, outcome.decision, outcome.decision.landmark));
         if (decision == EDecision::created && sight == ESight::nothing) sight = ESight::first;

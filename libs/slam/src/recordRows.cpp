@@ -21,6 +21,21 @@ void checkStep(const TStepInput& step) {
                                     std::to_string(step.measurements.size()) + " measurements");
 }
 
+EDecision decisionOf(association::EVerdict verdict) {
+    using association::EVerdict;
+    switch (verdict) {
+        case EVerdict::paired:
+            return EDecision::paired;
+        case EVerdict::created:
+            return EDecision::created;
+        case EVerdict::deferred:
+            return EDecision::deferred;
+        case EVerdict::clutter:
+            break;
+    }
+    return EDecision::clutter;
+}
+
 TAssociationRow associationRow(const TStepInput& step,
                                std::size_t measurement,
                                EDecision decision,

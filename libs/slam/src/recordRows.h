@@ -11,6 +11,9 @@ namespace salma::slam {
 /// \throw std::invalid_argument if `step` is not finite or its vectors' sizes do not agree.
 void checkStep(const TStepInput& step);
 
+/// What the filter does after that verdict, unless it holds the measurement back.
+EDecision decisionOf(association::EVerdict verdict);
+
 /// What became of a measurement of a step. \param landmark Its id, -1 for none.
 TAssociationRow associationRow(const TStepInput& step,
                                std::size_t measurement,

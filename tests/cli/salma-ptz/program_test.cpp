@@ -62,15 +62,17 @@ TEST_F(SalmaPtz, HelpStartsWithTwoExamples) {
 TEST_F(SalmaPtz, TellsWhereTheCameraLooks) {
     const auto result = camera({"status"});
     EXPECT_EQ(result.exitCode, 0);
-    EXPECT_EQ(result.output,
-              "pan       0.00 deg\ntilt      0.00 deg\nzoom      1.00, 0 counts\nfield    48.80 deg\n");
+    EXPECT_EQ(
+        result.output,
+        "pan       0.00 deg\ntilt      0.00 deg\nzoom      1.00, 0 counts\nfield    48.80 deg\n");
 }
 
 TEST_F(SalmaPtz, MovesAndSaysWhereItIsThen) {
     const auto result = camera({"move", "20", "-5"});
     EXPECT_EQ(result.exitCode, 0) << result.output;
-    EXPECT_EQ(result.output,
-              "pan      20.00 deg\ntilt     -5.00 deg\nzoom      1.00, 0 counts\nfield    48.80 deg\n");
+    EXPECT_EQ(
+        result.output,
+        "pan      20.00 deg\ntilt     -5.00 deg\nzoom      1.00, 0 counts\nfield    48.80 deg\n");
     expectHeadAt(176, -60);
 }
 

@@ -50,6 +50,13 @@ TEST(CWideBaselineTracker, CountsPlacesAndNotSightings) {
     EXPECT_TRUE(seen(tracker, poster(1.2))) << "the third one";
 }
 
+TEST(CWideBaselineTracker, AddsUpStepsThatAreShorterThanPlacesAreApart) {
+    CWideBaselineTracker tracker(options());  // places 0.1 m apart, 10 deg
+    int steps = 1;
+    while (!seen(tracker, poster(0.06 * steps)) && steps < 100) ++steps;
+    EXPECT_EQ(steps, 7) << "0.36 m from the first view: 10.1 deg";
+}
+
 TEST(CWideBaselineTracker, IsNotConfirmedByTurningOnTheSpot) {
     CWideBaselineTracker tracker(options(2, 5));
     EXPECT_FALSE(seen(tracker, poster(0)));

@@ -67,7 +67,8 @@ class CWideBaselineTracker {
 
  private:
     struct TEntity {
-        std::vector<TSighting> views;  //!< One from each place; the last sighting at the end.
+        std::vector<TSighting> views;  //!< The first from each place.
+        TSighting last;
         int lastStep{0};
     };
     bool continues(const TSighting& sighting, const TEntity& entity) const;

@@ -46,7 +46,7 @@ class CSalientRBPF2D : public CSlamBackend {
     void keepDecisions();
     void forgetDecisions();
     std::size_t best() const;
-    const CSalientLandmarkMap& mapOf(std::size_t particle) const;
+    CSalientLandmarkMap& mapOf(std::size_t particle) const;
     void noteTrajectory(std::size_t particle, TRunRecord& record) const;
     void noteLandmarks(const CSalientLandmarkMap& map, TRunRecord& record) const;
     void noteDecisions(const TDecided& decided, TRunRecord& record) const;
