@@ -84,6 +84,16 @@ TEST(CheckFocalLength, DoesNotKnowWhereItCannot) {
     EXPECT_FALSE(checkFocalLength(corners));
 }
 
+TEST(CheckFocalLength, DoesNotMindALandmarkInAWrongDirection) {
+    auto record = drive(0.03, 1);
+    const auto right = checkFocalLength(record);
+    for (auto& row : record.associations) row.bearing += 0.02 * (row.landmark % 3 - 1);
+    const auto check = checkFocalLength(record);
+    ASSERT_TRUE(check && right);
+    EXPECT_NEAR(check->error, right->error, 1e-9);
+    EXPECT_NEAR(check->sigma, right->sigma, 1e-9);
+}
+
 TEST(CheckFocalLength, LeavesOutWhatWasNotPaired) {
     auto record = drive(0, 1);
     const auto sound = checkFocalLength(record);
