@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <salma/viz/CReport.h>
 #include <salma/viz/CTrajectoryScore.h>
+#include <salma/viz/doubtfulPairings.h>
 #include <salma/viz/reportStyle.h>
 
 #include <algorithm>
@@ -42,15 +43,44 @@ std::string plusMinus(double value, double sigma) {
     return fixed(value, 2) + " &plusmn; " + fixed(sigma, 3);
 }
 
+/// A picture of the patch, or a dash.
+std::string patchFigure(const std::shared_ptr<const observations::TPatch>& patch,
+                        const std::string& name) {
+    const std::string png = patch ? patchPng(*patch) : "";
+    if (png.empty()) return "&mdash;";
+    return "<img class=\"patch\" alt=\"" + name + "\" src=\"" + embedded(png) + "\">";
+}
+
+std::string patchOfLandmark(const slam::TRunRecord& record, int id) {
+    const auto found = std::find_if(record.landmarks.begin(), record.landmarks.end(),
+                                    [id](const auto& l) { return l.id == id; });
+    return patchFigure(found == record.landmarks.end() ? nullptr : found->patch,
+                       "patch of landmark " + std::to_string(id));
+}
+
+std::string fixedOrDash(double value, int digits) {
+    return std::isnan(value) ? "&mdash;" : fixed(value, digits);
+}
+
+std::string doubtfulRow(const slam::TRunRecord& record, const TDoubtfulPairing& doubtful) {
+    const auto& made = record.associations[doubtful.row];
+    const bool rivalled = doubtful.rival >= 0;
+    return "<tr>" + cell(patchFigure(made.patch, "patch as seen")) +
+           cell(patchOfLandmark(record, made.landmark)) +
+           cell(fixed(made.time - record.trajectory.front().time, 1)) +
+           cell(std::to_string(made.observation)) + cell(std::to_string(made.landmark)) +
+           cell(fixedOrDash(made.distance2, 1)) + cell(fixedOrDash(made.logRatio, 1)) +
+           cell(fixed(doubtful.margin, 1)) +
+           cell(rivalled ? std::to_string(doubtful.rival) : "none") +
+           cell(rivalled ? patchOfLandmark(record, doubtful.rival) : "&mdash;") +
+           cell(fixedOrDash(doubtful.rivalDistance2, 1)) +
+           cell(fixedOrDash(doubtful.rivalLogRatio, 1)) + "</tr>\n";
+}
+
 std::string landmarkRow(const slam::TMapLandmark& l, double start) {
-    std::string picture = "&mdash;", size = "&mdash;";
-    if (l.patch) {
-        const std::string png = patchPng(*l.patch);
-        if (!png.empty())
-            picture = "<img class=\"patch\" alt=\"patch of landmark " + std::to_string(l.id) +
-                      "\" src=\"" + embedded(png) + "\">";
-        size = fixed(l.patch->width, 2) + " &times; " + fixed(l.patch->height, 2);
-    }
+    const std::string picture = patchFigure(l.patch, "patch of landmark " + std::to_string(l.id));
+    std::string size = "&mdash;";
+    if (l.patch) size = fixed(l.patch->width, 2) + " &times; " + fixed(l.patch->height, 2);
     return "<tr>" + cell(picture) + cell(std::to_string(l.id)) +
            cell(plusMinus(l.mean.x, std::sqrt(l.covariance(0, 0)))) +
            cell(plusMinus(l.mean.y, std::sqrt(l.covariance(1, 1)))) + cell(size) +
@@ -133,7 +163,7 @@ std::string CReport::html(const TReportFigures& figures) const {
                    "What was measured minus what the filter expected. A consistent filter keeps "
                    "about 95 % of them inside the bounds. Lines break where nothing known was "
                    "seen.");
-    page += landmarkTable() + refusals();
+    page += landmarkTable() + doubtfulTable() + refusals();
     page +=
         "<h2>Options</h2>\n<details><summary>The configuration that took effect</summary><pre>" +
         escapeHtml(record.options) + "</pre></details>\n";
@@ -212,6 +242,25 @@ std::string CReport::landmarkTable() const {
     return "<h2>Salient landmarks</h2>\n<table><thead><tr><th>patch</th><th>id</th>"
            "<th>x &plusmn; &sigma; [m]</th><th>y &plusmn; &sigma; [m]</th><th>size [m]</th>"
            "<th>sightings</th><th>first [s]</th><th>last [s]</th></tr></thead><tbody>\n" +
+           rows + "</tbody></table>\n";
+}
+
+std::string CReport::doubtfulTable() const {
+    const auto& record = m_input.record;
+    std::string rows;
+    if (!record.trajectory.empty())
+        for (const auto& doubtful : doubtfulPairings(record)) rows += doubtfulRow(record, doubtful);
+    if (rows.empty()) return "";
+    return "<h2>The most doubtful pairings</h2>\n<p>Pairings of salient landmarks that came "
+           "nearest "
+           "to being another or none. Margin: log likelihood (log LR - d&sup2;/2) above that of "
+           "the "
+           "rival, the next best landmark, or above the edge of the gate where there is none. A "
+           "log LR of "
+           "0: the look had counted before in this track.</p>\n<table><thead><tr><th>seen</th>"
+           "<th>landmark</th><th>t [s]</th><th>observation</th><th>id</th><th>d&sup2;</th>"
+           "<th>log LR</th><th>margin</th><th>rival</th><th></th><th>its d&sup2;</th>"
+           "<th>its log LR</th></tr></thead><tbody>\n" +
            rows + "</tbody></table>\n";
 }
 

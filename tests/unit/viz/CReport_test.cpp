@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <salma/viz/CReport.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <vector>
 
@@ -68,8 +69,8 @@ TEST(CReport, EscapesWhatComesFromOutside) {
 TEST(CReport, NeedsNothingBesideIt) {
     const auto run = test::hallwayRun();
     const std::string html = reportOf({run.record, run.truth});
-    EXPECT_EQ(count(html, "<img"), 8U) << "two figures and six patches";
-    EXPECT_EQ(count(html, "src=\"data:image/png;base64,"), 8U);
+    EXPECT_EQ(count(html, "<img"), 13U) << "two figures, six landmarks, five doubtful pairings";
+    EXPECT_EQ(count(html, "src=\"data:image/png;base64,"), 13U);
     EXPECT_EQ(count(html, "http"), 0U);
     EXPECT_EQ(count(html, "<link"), 0U);
     EXPECT_NE(html.find("base64," + base64("not looked into")), std::string::npos);
@@ -87,7 +88,27 @@ TEST(CReport, TellsTheHeadlineFiguresAndEverySalientLandmark) {
     EXPECT_NE(html.find("<td>18</td><td>5.00 &plusmn; 0.050</td><td>-1.20 &plusmn; 0.040</td>"
                         "<td>0.60 &times; 0.40</td><td>9</td>"),
               std::string::npos);
-    EXPECT_EQ(count(html, "alt=\"patch of landmark"), 6U);
+    const auto landmarks = html.substr(0, html.find("<h2>The most doubtful pairings"));
+    EXPECT_EQ(count(landmarks, "alt=\"patch of landmark"), 6U);
+}
+
+TEST(CReport, ShowsTheMostDoubtfulPairingsWithBothPatches) {
+    auto run = test::hallwayRun();
+    auto& rows = run.record.associations;
+    const auto made = std::find_if(rows.begin(), rows.end(), [](const auto& row) {
+        return row.decision == slam::EDecision::paired && row.landmark == 18;
+    });
+    ASSERT_NE(made, rows.end());
+    made->logRatio = -2;
+    made->patch = run.record.landmarks[18].patch;
+    run.record.candidates = {{made->time, made->observation, 19, 3.5, -2.25, false}};
+    const std::string html = reportOf({run.record, {}});
+    const auto table = html.substr(html.find("<h2>The most doubtful pairings"));
+    EXPECT_EQ(count(table, "alt=\"patch as seen"), 1U);
+    EXPECT_NE(table.find("<td>18</td><td>1.5</td><td>-2.0</td><td>1.2</td><td>19</td>"),
+              std::string::npos);
+    EXPECT_NE(table.find("alt=\"patch of landmark 19\""), std::string::npos);
+    EXPECT_EQ(nestingProblem(html), "");
 }
 
 TEST(CReport, ComparesWithTheTruthWhereThereIsOne) {

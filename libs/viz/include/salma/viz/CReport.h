@@ -27,6 +27,7 @@ class CReport {
     std::string headline() const;
     std::string accuracy() const;
     std::string landmarkTable() const;
+    std::string doubtfulTable() const;
     std::string notices() const;
     std::string refusals() const;
 
