@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CSlamApp.h"
 
-#include <salma/appearance/CPatchMatcher.h>
 #include <salma/landmarks/CLandmarkDatabase.h>
 #include <salma/observations/CLogWriter.h>
 #include <salma/observations/registerClasses.h>
-#include <salma/slam/CSalientEKF2D.h>
-#include <salma/slam/CSalientRBPF2D.h>
 #include <salma/slam/focalCheck.h>
 #include <salma/viz/CRunWriter.h>
 #include <salma/viz/CTrajectoryScore.h>
@@ -20,6 +17,7 @@
 #include <stdexcept>
 
 #include "CMapping.h"
+#include "backend.h"
 
 namespace fs = std::filesystem;
 
@@ -38,27 +36,15 @@ std::optional<viz::TTrajectory> truthOf(const std::string& rawlog) {
     return viz::readTum(truth.string());
 }
 
-void setBackend(const std::string& name, TRunOptions& options) {
-    if (name == "ekf") options.backend = EBackend::ekf;
-    if (name == "rbpf") options.backend = EBackend::rbpf;
-}
-
-void setMethod(const std::string& name, association::TAssociationOptions& options) {
-    if (name == "nn") options.method = association::EMethod::nn;
-    if (name == "scnn") options.method = association::EMethod::scnn;
-    if (name == "jcbb") options.method = association::EMethod::jcbb;
-    if (name == "saliency") options.method = association::EMethod::saliency;
-}
-
 }  // namespace
 
 void CSlamApp::initialize(const TSlamArguments& arguments) {
     m_arguments = arguments;
     observations::registerClasses();
     m_config = TSlamConfig::load(arguments.config);
-    setBackend(arguments.backend, m_config.run);
-    setMethod(arguments.association, m_config.association);
-    if (arguments.seed >= 0) m_config.lines.seed = m_config.rbpf.seed = arguments.seed;
+    if (!arguments.backend.empty()) setBackend(arguments.backend, m_config);
+    if (!arguments.association.empty()) setMethod(arguments.association, m_config);
+    if (arguments.seed >= 0) setSeed(arguments.seed, m_config);
     m_config.ekf.ignoreIdentities |= arguments.ignoreIdentities;
     m_config.landmarkMap.ignoreIdentities |= arguments.ignoreIdentities;
     m_out = std::make_unique<COutputFolder>(arguments.out);  // a bad place is found before the work
@@ -169,23 +155,6 @@ void CSlamApp::writeDatabase(const std::string& file) const {
     landmarks::CLandmarkDatabase(file).create(stored);
 }
 
-std::unique_ptr<slam::CSlamBackend> CSlamApp::createBackend() const {
-    if (m_config.run.backend == EBackend::rbpf) {
-        const slam::TLandmarkMapSetup maps{m_config.landmarkMap, m_config.association,
-                                           m_config.matcher, m_config.regionMatcher,
-                                           m_config.rangeBearing};
-        return std::make_unique<slam::CSalientRBPF2D>(m_config.rbpf, maps);
-    }
-    const auto matcher =
-        std::make_shared<const appearance::CPatchMatcher>(m_config.matcher, m_config.regionMatcher);
-    return std::make_unique<slam::CSalientEKF2D>(
-        m_config.ekf, m_config.association,
-        [matcher](const observations::TPatch& a, const observations::TPatch& b) {
-            return matcher->match(a, b).logLikelihoodRatio;
-        },
-        m_config.tracking);
-}
-
 void CSlamApp::run() {
     const auto start = std::chrono::steady_clock::now();
     const COutputFolder& out = *m_out;
@@ -193,7 +162,7 @@ void CSlamApp::run() {
     const TSeen seen = CPictureWork(m_config, m_log).run();
     noticeOfPictures(seen);
 
-    const auto backend = createBackend();
+    const auto backend = createBackend(m_config);
     CMapping(m_config, m_log, *backend).run(seen.records, m_record);
     backend->results(m_record);
     if (m_record.trajectory.empty())

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <salma/observations/CLogReader.h>
-#include <salma/slam/CSlamBackend.h>
+#include <salma/slam/TRunRecord.h>
 #include <salma/viz/TTrajectory.h>
 
 #include <memory>
@@ -47,7 +47,6 @@ class CSlamApp {
 
  private:
     std::string accuracy() const;
-    std::unique_ptr<slam::CSlamBackend> createBackend() const;
     void noticeWhatIsMissing();
     void noticeOfPictures(const TSeen& seen);
     void noticeOfCalibration();

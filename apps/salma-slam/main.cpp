@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "CSlamApp.h"
+#include "backend.h"
 #include "runProgram.h"
 
 int main(int argc, char** argv) {
@@ -13,9 +14,9 @@ int main(int argc, char** argv) {
     app.add_option("RAWLOG", arguments.rawlog, "log to read; else `rawlog` in [run]");
     app.add_option("--out", arguments.out, "folder for the results; replaced if it holds some");
     app.add_option("--backend", arguments.backend, "ekf or rbpf")
-        ->check(CLI::IsMember({"ekf", "rbpf"}));
+        ->check(CLI::IsMember(salma::apps::backendNames()));
     app.add_option("--association", arguments.association, "nn, scnn, jcbb or saliency")
-        ->check(CLI::IsMember({"nn", "scnn", "jcbb", "saliency"}));
+        ->check(CLI::IsMember(salma::apps::methodNames()));
     app.add_option("--seed", arguments.seed, "seed of all random steps")
         ->check(CLI::NonNegativeNumber);
     app.add_flag("--ignore-ids", arguments.ignoreIdentities, "identities in the log are not read");
