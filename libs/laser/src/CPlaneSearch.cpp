@@ -92,6 +92,17 @@ std::optional<TPlaneFit> CPlaneSearch::draw(std::size_t i) {
     return fit;
 }
 
+/// Buildings repeat their directions, so a line too short to tell its own plane may lie on one
+/// parallel to a plane already found: a window frame, a door in its recess.
+std::optional<TPlaneFit> CPlaneSearch::drawParallel(std::size_t i) {
+    if (m_normals.empty()) return std::nullopt;
+    const TSpaceLine& line = m_lines[i];
+    const Vector3d& normal = m_normals[m_random() % m_normals.size()];
+    const TPlaneFit fit = outwards(normal, normal.dot(0.5 * (line.from + line.to)));
+    if (!(std::abs(fit.offset(line.scanner)) >= kLeastView) || !lies(fit, i)) return std::nullopt;
+    return fit;
+}
+
 std::optional<TPlaneFit> CPlaneSearch::bestHypothesis() {
     Indices candidates;
     for (std::size_t i = 0; i < m_lines.size(); ++i)
@@ -100,7 +111,8 @@ std::optional<TPlaneFit> CPlaneSearch::bestHypothesis() {
     std::size_t most = 0;
     const auto samples = static_cast<std::size_t>(m_options.hypotheses);
     for (std::size_t h = 0; h < samples && !candidates.empty(); ++h) {
-        const auto fit = draw(candidates[h * candidates.size() / samples]);
+        const std::size_t line = candidates[h * candidates.size() / samples];
+        const auto fit = h % 2 == 0 ? draw(line) : drawParallel(line);
         if (!fit) continue;
         const std::size_t points = support(*fit);
         if (points <= most) continue;
@@ -233,7 +245,9 @@ std::optional<TPlanePatch> CPlaneSearch::next() {
         const bool large = plane->lines >= static_cast<std::size_t>(m_options.minLines) &&
                            plane->points >= static_cast<std::size_t>(m_options.minPoints) &&
                            plane->size().minCoeff() >= m_options.minSize && plane->scans > 1;
-        if (large) return plane;
+        if (!large) continue;
+        m_normals.push_back(plane->normal);
+        return plane;
     }
 }
 

@@ -38,7 +38,10 @@ class CPlaneSearch {
 
  private:
     using Indices = std::vector<std::size_t>;
+    /// The plane through line `i` and the middle of one from a scan beside it, drawn at random.
     std::optional<TPlaneFit> draw(std::size_t i);
+    /// The plane through the middle of line `i` that is parallel to a plane found before.
+    std::optional<TPlaneFit> drawParallel(std::size_t i);
     std::optional<TPlaneFit> bestHypothesis();
     bool lies(const TPlaneFit& fit, std::size_t line) const;
     std::size_t support(const TPlaneFit& fit) const;
@@ -50,6 +53,7 @@ class CPlaneSearch {
     const std::vector<TSpaceLine>& m_lines;
     std::vector<char> m_free;
     std::vector<std::size_t> m_firstOfScan;  //!< Index of each scan's first line, and the end.
+    std::vector<Eigen::Vector3d> m_normals;  //!< Of the planes found.
     std::mt19937 m_random;
 };
 

@@ -170,24 +170,53 @@ TEST(CPlaneExtractor, NamesTheScanThatCannotBeUsed) {
     EXPECT_THROW(CPlaneExtractor{options}, std::invalid_argument);
 }
 
-/// Two sweeps 1.57 m apart along a corridor with a glazed side; its solid walls are 4.75 m apart.
+/// Of the middle of a piece from another's plane [m]: far from the origin a small error of a
+/// normal makes a large one of the distance.
+double offsetOfMiddle(const TPlanePatch& piece, const TPlanePatch& wall) {
+    const Eigen::Vector2d middle = 0.5 * (piece.low + piece.high);
+    return wall.normal.dot(piece.distance * piece.normal + middle[0] * piece.across +
+                           middle[1] * piece.up) -
+           wall.distance;
+}
+
+/// The piece of a plane parallel to `wall` whose middle is `away` from it [m], within 3 cm.
+std::optional<TPlanePatch> parallelAt(const TPlaneResult& result,
+                                      const TPlanePatch& wall,
+                                      double away) {
+    for (const TPlanePatch& plane : result.planes)
+        if (std::abs(plane.normal.dot(wall.normal)) > 0.99 &&
+            std::abs(offsetOfMiddle(plane, wall) - away) < 0.03)
+            return plane;
+    return std::nullopt;
+}
+
+/** Two sweeps 1.57 m apart along a corridor. Its left side is glass between frames, with a solid
+ * wall behind; on its right doors stand 0.24 m back. */
 TEST(CPlaneExtractor, FindsWallsAndFloorOfARealCorridorTwiceInTheSamePlace) {
-    double width[2] = {0, 0};
+    double glassFront[2] = {0, 0}, solidWall[2] = {0, 0};
     for (const int k : {0, 1}) {
         SALMA_NEED_DATA(file, "scans3d/scan00" + std::to_string(k) + ".3d.gz");
         const TPlaneResult result = CPlaneExtractor().extract(test::readCorridorSweep(file));
-        const auto right = find(result, {0, -1, 0}, 0.97), left = find(result, {0, 1, 0}, 3.78);
-        ASSERT_TRUE(right && left) << k;
+        const auto right = find(result, {0, -1, 0}, 0.97);
+        ASSERT_TRUE(right) << k;
         EXPECT_EQ(right->kind, EPlaneKind::wall);
-        EXPECT_EQ(left->kind, EPlaneKind::wall);
-        width[k] = right->distance + left->distance;
+        const auto front = parallelAt(result, *right, -2.36),
+                   solid = parallelAt(result, *right, -4.74);
+        ASSERT_TRUE(front && solid) << k;
+        EXPECT_EQ(front->kind, EPlaneKind::wall);
+        EXPECT_GT(front->size().minCoeff(), 2) << "from floor to ceiling";
+        EXPECT_EQ(solid->kind, EPlaneKind::wall);
+        EXPECT_TRUE(parallelAt(result, *right, 0.24)) << "door of sweep " << k;
+        glassFront[k] = offsetOfMiddle(*front, *right);
+        solidWall[k] = offsetOfMiddle(*solid, *right);
         const bool floor =
             std::any_of(result.planes.begin(), result.planes.end(), [](const TPlanePatch& plane) {
                 return plane.kind == EPlaneKind::floor && plane.points > 5000;
             });
         EXPECT_TRUE(floor) << k;
     }
-    EXPECT_NEAR(width[0], width[1], 0.02);
+    EXPECT_NEAR(glassFront[0], glassFront[1], 0.02);
+    EXPECT_NEAR(solidWall[0], solidWall[1], 0.02);
 }
 
 }  // namespace salma::laser

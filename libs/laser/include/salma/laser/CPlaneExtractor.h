@@ -41,11 +41,12 @@ struct TPlaneResult {
 /** Walls, floor, ceiling and what stands out from them, in the scans of a nodding laser.
  *
  * Lines are found in each scan, then planes among the lines: a hypothesis is the plane through a
- * line and the middle of one from a scan beside it, its support the lines that lie on it with both
- * ends. The connected piece with most points is fitted by weighted least squares to all points of
- * its lines, gathered again until it is stable, and taken away; and so on. Deterministic.
- * Source: K.-L. Ho, transfer report, Oxford, 2004, section 4.4.1 (lines first, then RANSAC over
- * lines); connection, refinement, covariance and kinds: own. */
+ * line and the middle of one from a scan beside it, or the one through a line that is parallel to a
+ * plane found before; its support are the lines that lie on it with both ends. The connected piece
+ * with most points is fitted by weighted least squares to all points of its lines, gathered again
+ * until it is stable, and taken away; and so on. Deterministic. Source: K.-L. Ho, transfer report,
+ * Oxford, 2004, section 4.4.1 (lines first, then RANSAC over lines); parallel planes, connection,
+ * refinement, covariance and kinds: own. */
 class CPlaneExtractor {
  public:
     /// \throw std::invalid_argument if options are out of range.
