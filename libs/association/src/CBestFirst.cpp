@@ -9,16 +9,18 @@
 
 namespace salma::association {
 
-CBestFirst::CBestFirst(const TAssociationOptions& options,
-                       CGatedStep& step,
-                       const std::vector<TMeasurement>& measurements)
+template <int DIM>
+CBestFirst<DIM>::CBestFirst(const TAssociationOptions& options,
+                            CGatedStep<DIM>& step,
+                            const std::vector<TMeasurementOf<DIM>>& measurements)
     : m_options(options),
       m_step(step),
-      m_gate(chiSquareQuantile(options.gateQuantile, 2)),
+      m_gate(chiSquareQuantile(options.gateQuantile, DIM)),
       m_measurements(measurements),
       m_scores(measurements.size()) {}
 
-void CBestFirst::score() {
+template <int DIM>
+void CBestFirst<DIM>::score() {
     for (std::size_t i = 0; i < m_scores.size(); ++i) {
         m_scores[i].clear();
         if (!m_step.isOpen(i)) continue;
@@ -33,14 +35,16 @@ void CBestFirst::score() {
     }
 }
 
-double CBestFirst::secondBest(std::size_t observation, std::size_t landmark) const {
+template <int DIM>
+double CBestFirst<DIM>::secondBest(std::size_t observation, std::size_t landmark) const {
     double found = -std::numeric_limits<double>::infinity();
     for (const TScored& scored : m_scores[observation])
         if (scored.pair->landmark != landmark) found = std::max(found, scored.score);
     return found;
 }
 
-CBestFirst::TBest CBestFirst::best(std::size_t observation) const {
+template <int DIM>
+typename CBestFirst<DIM>::TBest CBestFirst<DIM>::best(std::size_t observation) const {
     TBest result;
     result.observation = observation;
     for (const TScored& scored : m_scores[observation])
@@ -60,7 +64,8 @@ CBestFirst::TBest CBestFirst::best(std::size_t observation) const {
     return result;
 }
 
-std::optional<EReason> CBestFirst::objection(const TBest& candidate) const {
+template <int DIM>
+std::optional<EReason> CBestFirst<DIM>::objection(const TBest& candidate) const {
     if (candidate.best.pair->logRatio < m_options.acceptLogLr) return EReason::unsureAppearance;
     // Judged by the peak: a limit on the score would be a hidden, narrower gate, and a filter that
     // only hears of small innovations becomes too sure of itself.
@@ -69,7 +74,8 @@ std::optional<EReason> CBestFirst::objection(const TBest& candidate) const {
     return {};
 }
 
-void CBestFirst::run() {
+template <int DIM>
+void CBestFirst<DIM>::run() {
     while (true) {
         score();
         std::optional<TBest> chosen;
@@ -89,5 +95,8 @@ void CBestFirst::run() {
         m_step.settle(i, candidate.best.pair ? *objection(candidate) : m_step.whyUnpaired(i), true);
     }
 }
+
+template class CBestFirst<2>;
+template class CBestFirst<3>;
 
 }  // namespace salma::association

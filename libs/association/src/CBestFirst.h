@@ -13,11 +13,12 @@ namespace salma::association {
  * What takes over where the search over hypotheses does not end. A pairing is weighed against its
  * direct rivals only, another landmark for the measurement and another measurement for the
  * landmark, given the pairings made; its lead over each must be the margin. */
+template <int DIM>
 class CBestFirst {
  public:
     CBestFirst(const TAssociationOptions& options,
-               CGatedStep& step,
-               const std::vector<TMeasurement>& measurements);
+               CGatedStep<DIM>& step,
+               const std::vector<TMeasurementOf<DIM>>& measurements);
 
     void run();
 
@@ -50,9 +51,9 @@ class CBestFirst {
     }
 
     const TAssociationOptions& m_options;
-    CGatedStep& m_step;
+    CGatedStep<DIM>& m_step;
     double m_gate;
-    const std::vector<TMeasurement>& m_measurements;
+    const std::vector<TMeasurementOf<DIM>>& m_measurements;
     std::vector<std::vector<TScored>> m_scores;
 };
 

@@ -15,9 +15,10 @@
 namespace salma::association {
 namespace {
 
-void check(const TAssociationProblem& problem) {
+template <int DIM>
+void check(const TAssociationProblemOf<DIM>& problem) {
     const Eigen::MatrixXd& covariance = problem.predictionCovariance;
-    const auto size = static_cast<Eigen::Index>(2 * problem.landmarks.size());
+    const auto size = static_cast<Eigen::Index>(DIM * problem.landmarks.size());
     if (covariance.rows() != size || covariance.cols() != size)
         throw std::invalid_argument("Prediction covariance is " +
                                     std::to_string(covariance.rows()) + " x " +
@@ -35,10 +36,12 @@ void check(const TAssociationProblem& problem) {
 
 }  // namespace
 
-CGatedStep::CGatedStep(const TAssociationOptions& options, const TAssociationProblem& problem)
+template <int DIM>
+CGatedStep<DIM>::CGatedStep(const TAssociationOptions& options,
+                            const TAssociationProblemOf<DIM>& problem)
     : m_options(options),
       m_problem(problem),
-      m_gate(chiSquareQuantile(options.gateQuantile, 2)),
+      m_gate(chiSquareQuantile(options.gateQuantile, DIM)),
       m_wallGate2(chiSquareQuantile(options.wallAngleQuantile, 1)),
       m_joint(problem),
       m_pairs(problem.measurements.size()),
@@ -54,10 +57,11 @@ CGatedStep::CGatedStep(const TAssociationOptions& options, const TAssociationPro
         if (m_open[i]) gate(i);
 }
 
-void CGatedStep::rejectClutter() {
+template <int DIM>
+void CGatedStep<DIM>::rejectClutter() {
     std::set<int> identities;
     for (std::size_t i = 0; i < m_problem.measurements.size(); ++i) {
-        const TMeasurement& measurement = m_problem.measurements[i];
+        const TMeasurementOf<DIM>& measurement = m_problem.measurements[i];
         if (!measurement.z.allFinite() || !(measurement.z[0] > 0) || !measurement.R.allFinite())
             decide(i, EVerdict::clutter, EReason::notFinite);
         else if (measurement.R.llt().info() != Eigen::Success)
@@ -67,15 +71,16 @@ void CGatedStep::rejectClutter() {
     }
 }
 
-void CGatedStep::refuseExcess() {
+template <int DIM>
+void CGatedStep<DIM>::refuseExcess() {
     const auto limit = static_cast<std::size_t>(m_options.maxMeasurements);
     if (openCount() <= limit) return;
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < m_open.size(); ++i)
         if (m_open[i]) order.push_back(i);
     std::sort(order.begin(), order.end(), [this](std::size_t a, std::size_t b) {
-        const TMeasurement& first = m_problem.measurements[a];
-        const TMeasurement& second = m_problem.measurements[b];
+        const TMeasurementOf<DIM>& first = m_problem.measurements[a];
+        const TMeasurementOf<DIM>& second = m_problem.measurements[b];
         return std::make_tuple(!first.identity, first.z[0], first.z[1], a) <
                std::make_tuple(!second.identity, second.z[0], second.z[1], b);
     });
@@ -83,13 +88,14 @@ void CGatedStep::refuseExcess() {
         decide(order[k], EVerdict::deferred, EReason::tooMany);
 }
 
-void CGatedStep::pairIdentities() {
+template <int DIM>
+void CGatedStep<DIM>::pairIdentities() {
     for (std::size_t i = 0; i < m_problem.measurements.size(); ++i) {
         const auto& identity = m_problem.measurements[i].identity;
         if (!m_open[i] || !identity) continue;
         for (std::size_t j = 0; j < m_problem.landmarks.size(); ++j) {
             if (m_problem.landmarks[j].identity != identity || m_taken[j]) continue;
-            const auto test = CJointInnovation(m_problem).test(i, j);
+            const auto test = CJointInnovationOf<DIM>(m_problem).test(i, j);
             if (test && m_joint.test(i, j)) {
                 TPair known;
                 known.landmark = j;
@@ -107,7 +113,9 @@ void CGatedStep::pairIdentities() {
     }
 }
 
-bool CGatedStep::compatible(const TMeasurement& measurement, const TPredictedLandmark& landmark) {
+template <int DIM>
+bool CGatedStep<DIM>::compatible(const TMeasurementOf<DIM>& measurement,
+                                 const TPredictedLandmarkOf<DIM>& landmark) {
     TDropCounts& dropped = m_result.dropped;
     if (!landmark.visible) return ++dropped.invisible, false;
     if (measurement.kind != landmark.kind ||
@@ -123,8 +131,9 @@ bool CGatedStep::compatible(const TMeasurement& measurement, const TPredictedLan
     return true;
 }
 
-void CGatedStep::gate(std::size_t observation) {
-    const CJointInnovation alone(m_problem);
+template <int DIM>
+void CGatedStep<DIM>::gate(std::size_t observation) {
+    const CJointInnovationOf<DIM> alone(m_problem);
     for (std::size_t j = 0; j < m_problem.landmarks.size(); ++j) {
         if (m_taken[j]) {  // by an identity
             ++m_result.dropped.identity;
@@ -146,13 +155,15 @@ void CGatedStep::gate(std::size_t observation) {
     }
 }
 
-bool CGatedStep::passesJointGate(const TConditionalInnovation& more) const {
+template <int DIM>
+bool CGatedStep<DIM>::passesJointGate(const TConditionalInnovationOf<DIM>& more) const {
     const auto pairings = static_cast<unsigned>(m_joint.pairings() - m_identities.size() + 1);
     const double total = m_joint.distance2() - m_identityDistance2 + more.distance2;
-    return total <= chiSquareQuantile(m_options.jointQuantile, 2 * pairings);
+    return total <= chiSquareQuantile(m_options.jointQuantile, DIM * pairings);
 }
 
-void CGatedStep::weighAppearance() {
+template <int DIM>
+void CGatedStep<DIM>::weighAppearance() {
     if (!m_problem.logRatio) return;
     for (std::size_t i = 0; i < m_pairs.size(); ++i) {
         if (!m_open[i] || m_problem.measurements[i].kind != ELandmarkKind::salient) continue;
@@ -164,17 +175,20 @@ void CGatedStep::weighAppearance() {
     }
 }
 
-void CGatedStep::decide(std::size_t observation, EVerdict verdict, EReason reason) {
+template <int DIM>
+void CGatedStep<DIM>::decide(std::size_t observation, EVerdict verdict, EReason reason) {
     m_open[observation] = false;
     m_result.decisions[observation].verdict = verdict;
     m_result.decisions[observation].reason = reason;
 }
 
-std::size_t CGatedStep::openCount() const {
+template <int DIM>
+std::size_t CGatedStep<DIM>::openCount() const {
     return static_cast<std::size_t>(std::count(m_open.begin(), m_open.end(), true));
 }
 
-std::vector<TBranch> CGatedStep::branches(bool outsideGateToo) const {
+template <int DIM>
+std::vector<TBranch> CGatedStep<DIM>::branches(bool outsideGateToo) const {
     std::vector<TBranch> result;
     for (std::size_t i = 0; i < m_pairs.size(); ++i)
         for (const TPair& pair : m_pairs[i])
@@ -183,7 +197,8 @@ std::vector<TBranch> CGatedStep::branches(bool outsideGateToo) const {
     return result;
 }
 
-void CGatedStep::pair(std::size_t observation, std::size_t landmark, EReason reason) {
+template <int DIM>
+void CGatedStep<DIM>::pair(std::size_t observation, std::size_t landmark, EReason reason) {
     const TPair& pair = pairOf({observation, landmark});
     m_joint.add(observation, landmark);
     m_taken[landmark] = true;
@@ -196,17 +211,20 @@ void CGatedStep::pair(std::size_t observation, std::size_t landmark, EReason rea
     if (!std::isnan(pair.logRatio)) m_result.logRatio += pair.logRatio;
 }
 
-const TPair& CGatedStep::pairOf(const TBranch& branch) const {
+template <int DIM>
+const TPair& CGatedStep<DIM>::pairOf(const TBranch& branch) const {
     const auto& pairs = m_pairs[branch.observation];
     return *std::find_if(pairs.begin(), pairs.end(),
                          [&](const TPair& pair) { return pair.landmark == branch.landmark; });
 }
 
-void CGatedStep::defer(std::size_t observation, EReason reason) {
+template <int DIM>
+void CGatedStep<DIM>::defer(std::size_t observation, EReason reason) {
     decide(observation, EVerdict::deferred, reason);
 }
 
-EReason CGatedStep::whyUnpaired(std::size_t observation) {
+template <int DIM>
+EReason CGatedStep<DIM>::whyUnpaired(std::size_t observation) {
     bool impossible = false;
     for (const TPair& pair : m_pairs[observation]) {
         if (!pair.inGate || pair.forbidden || m_taken[pair.landmark]) continue;
@@ -216,14 +234,16 @@ EReason CGatedStep::whyUnpaired(std::size_t observation) {
     return impossible ? EReason::jointlyImpossible : EReason::taken;
 }
 
-bool CGatedStep::isNear(std::size_t observation, const TPair& pair, bool givenPairings) const {
+template <int DIM>
+bool CGatedStep<DIM>::isNear(std::size_t observation, const TPair& pair, bool givenPairings) const {
     if (pair.forbidden) return false;
     if (!givenPairings) return true;
     const auto test = m_joint.test(observation, pair.landmark);
     return !test || test->distance2 <= m_options.newDistance2;
 }
 
-void CGatedStep::settle(std::size_t observation, EReason reason, bool givenPairings) {
+template <int DIM>
+void CGatedStep<DIM>::settle(std::size_t observation, EReason reason, bool givenPairings) {
     bool near = false;
     bool hasCandidate = false;
     for (const TPair& pair : m_pairs[observation]) {
@@ -238,7 +258,8 @@ void CGatedStep::settle(std::size_t observation, EReason reason, bool givenPairi
                                                             : EReason::unexplained);
 }
 
-TAssociation CGatedStep::finish(const TSearchCounts& search) {
+template <int DIM>
+TAssociation CGatedStep<DIM>::finish(const TSearchCounts& search) {
     m_result.search = search;
     for (std::size_t i = 0; i < m_pairs.size(); ++i) {
         TDecision& decision = m_result.decisions[i];
@@ -253,5 +274,8 @@ TAssociation CGatedStep::finish(const TSearchCounts& search) {
     m_result.jointDistance2 = m_joint.distance2();
     return std::move(m_result);
 }
+
+template class CGatedStep<2>;
+template class CGatedStep<3>;
 
 }  // namespace salma::association

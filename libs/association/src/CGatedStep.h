@@ -23,10 +23,11 @@ struct TPair {
  *
  * Construction checks the problem, sorts out clutter, pairs by identity and gates the rest. The
  * method then pairs what it wants and settles every other open measurement. */
+template <int DIM>
 class CGatedStep {
  public:
     /// \throw std::invalid_argument, see CDataAssociator::associate().
-    CGatedStep(const TAssociationOptions& options, const TAssociationProblem& problem);
+    CGatedStep(const TAssociationOptions& options, const TAssociationProblemOf<DIM>& problem);
 
     /// Landmarks within `newDistance2` of a measurement that could be it, sorted by index; empty
     /// for one that identity or clutter decided.
@@ -39,10 +40,10 @@ class CGatedStep {
     /// \param branch Must be one of the measurement's pairs.
     const TPair& pairOf(const TBranch& branch) const;
     const std::vector<TBranch>& identityPairings() const { return m_identities; }
-    const CJointInnovation& joint() const { return m_joint; }
+    const CJointInnovationOf<DIM>& joint() const { return m_joint; }
     /// True if the joint gate holds with one more pairing. Pairings by identity are taken for
     /// granted: the others are judged given them.
-    bool passesJointGate(const TConditionalInnovation& more) const;
+    bool passesJointGate(const TConditionalInnovationOf<DIM>& more) const;
     TDropCounts& dropped() { return m_result.dropped; }
 
     /// Asks the appearance of every pair that has one and marks what it forbids.
@@ -68,15 +69,16 @@ class CGatedStep {
     void refuseExcess();
     void pairIdentities();
     void gate(std::size_t observation);
-    bool compatible(const TMeasurement& measurement, const TPredictedLandmark& landmark);
+    bool compatible(const TMeasurementOf<DIM>& measurement,
+                    const TPredictedLandmarkOf<DIM>& landmark);
     bool isNear(std::size_t observation, const TPair& pair, bool givenPairings) const;
     void decide(std::size_t observation, EVerdict verdict, EReason reason);
 
     const TAssociationOptions& m_options;
-    const TAssociationProblem& m_problem;
-    double m_gate;       //!< chi2 with 2 degrees of freedom
+    const TAssociationProblemOf<DIM>& m_problem;
+    double m_gate;       //!< chi2 with DIM degrees of freedom
     double m_wallGate2;  //!< chi2 with 1 degree of freedom
-    CJointInnovation m_joint;
+    CJointInnovationOf<DIM> m_joint;
     double m_identityDistance2{0};  //!< Share of the pairings by identity in the joint distance.
     std::vector<TBranch> m_identities;
     TAssociation m_result;

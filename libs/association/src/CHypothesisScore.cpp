@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CHypothesisScore.h"
 
+#include <salma/association/CJointInnovation.h>
+
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -13,42 +16,55 @@ namespace {
 
 constexpr double leastDetection = 1e-3;  // no landmark is surely missed or surely seen
 
-/// A diagonal matrix that is not larger than R, as its two entries.
-Eigen::Vector2d diagonalBelow(const Eigen::Matrix2d& R) {
-    const double correlation = std::abs(R(1, 0)) / std::sqrt(R(0, 0) * R(1, 1));
-    return (1 - correlation) * R.diagonal();
+/// Smallest eigenvalue of a correlation matrix, or a little less.
+double leastEigenvalue(const Eigen::Matrix2d& m) { return 1 - std::abs(m(1, 0)); }
+
+double leastEigenvalue(const Eigen::Matrix3d& m) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(m, Eigen::EigenvaluesOnly);
+    return std::max(0., solver.eigenvalues()[0] - 1e-9);
+}
+
+/// A diagonal matrix that is not larger than R, as its entries.
+template <int DIM>
+TReading<DIM> diagonalBelow(const TReadingCovariance<DIM>& R) {
+    const TReading<DIM> scale = R.diagonal().cwiseSqrt().cwiseInverse();
+    const TReadingCovariance<DIM> correlation = scale.asDiagonal() * R * scale.asDiagonal();
+    return leastEigenvalue(correlation) * R.diagonal();
 }
 
 /// What a landmark's prediction keeps of its covariance when all others are measured as well as
-/// `noise` allows (two entries per landmark); zero where the matrices are not sound.
-std::vector<Eigen::Matrix2d> remainders(const Eigen::MatrixXd& prediction,
-                                        const Eigen::VectorXd& noise) {
-    std::vector<Eigen::Matrix2d> result(static_cast<std::size_t>(noise.size() / 2),
-                                        Eigen::Matrix2d::Zero());
+/// `noise` allows (DIM entries per landmark); zero where the matrices are not sound.
+template <int DIM>
+std::vector<TReadingCovariance<DIM>> remainders(const Eigen::MatrixXd& prediction,
+                                                const Eigen::VectorXd& noise) {
+    std::vector<TReadingCovariance<DIM>> result(static_cast<std::size_t>(noise.size() / DIM),
+                                                TReadingCovariance<DIM>::Zero());
     const Eigen::MatrixXd whole = prediction + Eigen::MatrixXd(noise.asDiagonal());
     const Eigen::LLT<Eigen::MatrixXd> factor(whole);
     if (factor.info() != Eigen::Success) return result;
     const Eigen::MatrixXd information =
         factor.solve(Eigen::MatrixXd::Identity(whole.rows(), whole.cols()));
     for (std::size_t k = 0; k < result.size(); ++k) {
-        const auto row = static_cast<Eigen::Index>(2 * k);
-        Eigen::Matrix2d left = information.block<2, 2>(row, row).inverse();
-        left -= Eigen::Matrix2d(noise.segment<2>(row).asDiagonal());
-        if (left.allFinite() && left(0, 0) > 0 && left.determinant() > 0) result[k] = left;
+        const auto row = static_cast<Eigen::Index>(DIM * k);
+        TReadingCovariance<DIM> left = information.block<DIM, DIM>(row, row).inverse();
+        left -= TReadingCovariance<DIM>(noise.segment<DIM>(row).asDiagonal());
+        if (left.llt().info() == Eigen::Success) result[k] = left;
     }
     return result;
 }
 
-double logPeak(const Eigen::Matrix2d& covariance) {
-    return -0.5 * std::log(4 * M_PI * M_PI * covariance.determinant());
+template <int DIM>
+double logPeak(const TReadingCovariance<DIM>& covariance) {
+    return -std::log(gaussNorm<DIM>() * std::sqrt(covariance.determinant()));
 }
 
 }  // namespace
 
-CHypothesisScore::CHypothesisScore(const TAssociationOptions& options,
-                                   const TAssociationProblem& problem,
-                                   const CGatedStep& step,
-                                   const std::vector<TBranch>& branches)
+template <int DIM>
+CHypothesisScore<DIM>::CHypothesisScore(const TAssociationOptions& options,
+                                        const TAssociationProblemOf<DIM>& problem,
+                                        const CGatedStep<DIM>& step,
+                                        const std::vector<TBranch>& branches)
     : m_options(options), m_problem(problem), m_terms(branches.size()) {
     for (std::size_t k = 0; k < branches.size(); ++k)
         for (const TPair& pair : step.pairs(branches[k].observation))
@@ -56,7 +72,8 @@ CHypothesisScore::CHypothesisScore(const TAssociationOptions& options,
     setBounds(branches, step.identityPairings());
 }
 
-double CHypothesisScore::gainOf(const TBranch& branch, const TPair& pair) const {
+template <int DIM>
+double CHypothesisScore<DIM>::gainOf(const TBranch& branch, const TPair& pair) const {
     const double visible = m_problem.visibility ? m_problem.visibility(branch.landmark) : 1;
     if (!(visible >= 0 && visible <= 1))
         throw std::invalid_argument("Visibility of landmark " + std::to_string(branch.landmark) +
@@ -66,52 +83,60 @@ double CHypothesisScore::gainOf(const TBranch& branch, const TPair& pair) const 
     return std::log(detection / (1 - detection)) + (std::isnan(pair.logRatio) ? 0 : pair.logRatio);
 }
 
-void CHypothesisScore::setBounds(const std::vector<TBranch>& branches,
-                                 const std::vector<TBranch>& given) {
-    std::map<std::size_t, Eigen::Vector2d> noiseOf;  // by landmark: the smallest
+template <int DIM>
+void CHypothesisScore<DIM>::setBounds(const std::vector<TBranch>& branches,
+                                      const std::vector<TBranch>& given) {
+    std::map<std::size_t, TReading<DIM>> noiseOf;  // by landmark: the smallest
     for (const auto* list : {&branches, &given})
         for (const TBranch& branch : *list) {
-            const Eigen::Vector2d noise =
-                diagonalBelow(m_problem.measurements[branch.observation].R);
+            const TReading<DIM> noise =
+                diagonalBelow<DIM>(m_problem.measurements[branch.observation].R);
             const auto [entry, isFirst] = noiseOf.insert({branch.landmark, noise});
             if (!isFirst) entry->second = entry->second.cwiseMin(noise);
         }
-    const auto size = static_cast<Eigen::Index>(2 * noiseOf.size());
+    const auto size = static_cast<Eigen::Index>(DIM * noiseOf.size());
     Eigen::MatrixXd prediction(size, size);
     Eigen::VectorXd noises(size);
     Eigen::Index row = 0;
     for (const auto& [landmark, noise] : noiseOf) {
-        noises.segment<2>(row) = noise;
+        noises.segment<DIM>(row) = noise;
         Eigen::Index column = 0;
         for (const auto& other : noiseOf) {
-            prediction.block<2, 2>(row, column) =
-                m_problem.predictionCovariance.block<2, 2>(2 * landmark, 2 * other.first);
-            column += 2;
+            prediction.block<DIM, DIM>(row, column) =
+                m_problem.predictionCovariance.template block<DIM, DIM>(DIM * landmark,
+                                                                        DIM * other.first);
+            column += DIM;
         }
-        row += 2;
+        row += DIM;
     }
-    const std::vector<Eigen::Matrix2d> left = remainders(prediction, noises);
+    const std::vector<TReadingCovariance<DIM>> left = remainders<DIM>(prediction, noises);
     for (std::size_t k = 0; k < branches.size(); ++k) {
         const auto entry = noiseOf.find(branches[k].landmark);
-        const Eigen::Matrix2d& C = left[std::distance(noiseOf.begin(), entry)];
-        const Eigen::Matrix2d& R = m_problem.measurements[branches[k].observation].R;
+        const TReadingCovariance<DIM>& C = left[std::distance(noiseOf.begin(), entry)];
+        const TReadingCovariance<DIM>& R = m_problem.measurements[branches[k].observation].R;
         m_terms[k].floor = R + C;
-        m_terms[k].bound = m_terms[k].gain + logPeak(m_terms[k].floor);
-        const Eigen::Matrix2d told = C + Eigen::Matrix2d(entry->second.asDiagonal());
+        m_terms[k].bound = m_terms[k].gain + logPeak<DIM>(m_terms[k].floor);
+        const TReadingCovariance<DIM> told =
+            C + TReadingCovariance<DIM>(entry->second.asDiagonal());
         m_terms[k].lowest = R + C - C * told.inverse() * C;
     }
 }
 
-double CHypothesisScore::unexplained(std::size_t observation) const {
+template <int DIM>
+double CHypothesisScore<DIM>::unexplained(std::size_t observation) const {
     return m_problem.measurements[observation].kind == ELandmarkKind::corner
                ? m_options.cornerLogDensity
                : m_options.salientLogDensity;
 }
 
-double CHypothesisScore::clutter(std::size_t observation) const {
+template <int DIM>
+double CHypothesisScore<DIM>::clutter(std::size_t observation) const {
     return m_problem.measurements[observation].kind == ELandmarkKind::corner
                ? m_options.cornerClutterLogDensity
                : m_options.salientClutterLogDensity;
 }
+
+template class CHypothesisScore<2>;
+template class CHypothesisScore<3>;
 
 }  // namespace salma::association

@@ -17,12 +17,13 @@ namespace salma::association {
  * However many pairings a hypothesis has, it does not know a landmark better than from all other
  * landmarks that could be paired, each seen with the smallest noise of its measurements. What this
  * leaves is a floor for covariances and so a bound for densities, sharper than R alone. */
+template <int DIM>
 class CHypothesisScore {
  public:
     /// \param branches Pairs of open measurements, sorted; all must be pairs of `step`.
     CHypothesisScore(const TAssociationOptions& options,
-                     const TAssociationProblem& problem,
-                     const CGatedStep& step,
+                     const TAssociationProblemOf<DIM>& problem,
+                     const CGatedStep<DIM>& step,
                      const std::vector<TBranch>& branches);
 
     /// What appearance and detection add to a branch's log density.
@@ -31,7 +32,7 @@ class CHypothesisScore {
     double bound(std::size_t branch) const { return m_terms[branch].bound; }
     /// Smallest covariance of the innovation in any hypothesis that does not contain the branch.
     /// \param landmarkToo The hypothesis may pair the landmark with another measurement.
-    const Eigen::Matrix2d& floor(std::size_t branch, bool landmarkToo) const {
+    const TReadingCovariance<DIM>& floor(std::size_t branch, bool landmarkToo) const {
         return landmarkToo ? m_terms[branch].lowest : m_terms[branch].floor;
     }
 
@@ -43,14 +44,14 @@ class CHypothesisScore {
     struct TTerms {
         double gain{0};
         double bound{0};
-        Eigen::Matrix2d floor{Eigen::Matrix2d::Zero()};
-        Eigen::Matrix2d lowest{Eigen::Matrix2d::Zero()};
+        TReadingCovariance<DIM> floor{TReadingCovariance<DIM>::Zero()};
+        TReadingCovariance<DIM> lowest{TReadingCovariance<DIM>::Zero()};
     };
     double gainOf(const TBranch& branch, const TPair& pair) const;
     void setBounds(const std::vector<TBranch>& branches, const std::vector<TBranch>& given);
 
     const TAssociationOptions& m_options;
-    const TAssociationProblem& m_problem;
+    const TAssociationProblemOf<DIM>& m_problem;
     std::vector<TTerms> m_terms;
 };
 

@@ -9,9 +9,10 @@
 
 namespace salma::association {
 
-CInterpretationTree::CInterpretationTree(const TAssociationProblem& problem,
-                                         const std::vector<TBranch>& branches,
-                                         const std::vector<TBranch>& given)
+template <int DIM>
+CInterpretationTree<DIM>::CInterpretationTree(const TAssociationProblemOf<DIM>& problem,
+                                              const std::vector<TBranch>& branches,
+                                              const std::vector<TBranch>& given)
     : m_problem(problem), m_given(branches.size()), m_taken(problem.landmarks.size(), false) {
     m_branches.reserve(branches.size() + given.size());
     for (const TBranch& branch : branches) append(branch);
@@ -21,27 +22,31 @@ CInterpretationTree::CInterpretationTree(const TAssociationProblem& problem,
     m_nodes = m_tests = 0;
 }
 
-void CInterpretationTree::append(const TBranch& branch) {
-    const TMeasurement& measurement = m_problem.measurements[branch.observation];
-    const auto row = static_cast<Eigen::Index>(2 * branch.landmark);
+template <int DIM>
+void CInterpretationTree<DIM>::append(const TBranch& branch) {
+    const TMeasurementOf<DIM>& measurement = m_problem.measurements[branch.observation];
+    const auto row = static_cast<Eigen::Index>(DIM * branch.landmark);
     TLevel root;
-    root.covariance = m_problem.predictionCovariance.block<2, 2>(row, row) + measurement.R;
+    root.covariance =
+        m_problem.predictionCovariance.template block<DIM, DIM>(row, row) + measurement.R;
     root.value = innovation(measurement.z, m_problem.landmarks[branch.landmark].z);
     m_branches.push_back({branch, {root}});
 }
 
-void CInterpretationTree::extend(TState& state) const {
+template <int DIM>
+void CInterpretationTree<DIM>::extend(TState& state) const {
     const std::size_t level = state.levels.size() - 1;
     const TPairing& pairing = m_path[level];
     const TState& other = m_branches[pairing.index];
-    const auto row = static_cast<Eigen::Index>(2 * other.branch.landmark);
-    const auto column = static_cast<Eigen::Index>(2 * state.branch.landmark);
-    Eigen::Matrix2d cross = m_problem.predictionCovariance.block<2, 2>(row, column);
+    const auto row = static_cast<Eigen::Index>(DIM * other.branch.landmark);
+    const auto column = static_cast<Eigen::Index>(DIM * state.branch.landmark);
+    TReadingCovariance<DIM> cross =
+        m_problem.predictionCovariance.template block<DIM, DIM>(row, column);
     for (std::size_t k = 1; k <= level; ++k)
         cross.noalias() -= other.levels[k].coupling.transpose() * state.levels[k].coupling;
     TLevel next;
     next.stamp = pairing.stamp;
-    next.coupling = pairing.factor.triangularView<Eigen::Lower>().solve(cross);
+    next.coupling = pairing.factor.template triangularView<Eigen::Lower>().solve(cross);
     next.covariance = state.levels.back().covariance;
     next.covariance.noalias() -= next.coupling.transpose() * next.coupling;
     next.value = state.levels.back().value;
@@ -49,7 +54,9 @@ void CInterpretationTree::extend(TState& state) const {
     state.levels.push_back(next);
 }
 
-const CInterpretationTree::TLevel& CInterpretationTree::current(std::size_t index) {
+template <int DIM>
+const typename CInterpretationTree<DIM>::TLevel& CInterpretationTree<DIM>::current(
+    std::size_t index) {
     TState& state = m_branches[index];
     // Stamps are unique: where the last level belongs to the path, all before it do.
     while (state.levels.size() > 1 &&
@@ -60,19 +67,21 @@ const CInterpretationTree::TLevel& CInterpretationTree::current(std::size_t inde
     return state.levels.back();
 }
 
-TBranchTest CInterpretationTree::test(std::size_t index) {
+template <int DIM>
+TBranchTest CInterpretationTree<DIM>::test(std::size_t index) {
     ++m_tests;
     const TLevel& level = current(index);
     const double infinity = std::numeric_limits<double>::infinity();
-    const Eigen::LLT<Eigen::Matrix2d> factor(level.covariance);
+    const Eigen::LLT<TReadingCovariance<DIM>> factor(level.covariance);
     if (factor.info() != Eigen::Success) return {infinity, -infinity};
     const double distance2 = factor.matrixL().solve(level.value).squaredNorm();
     const double root = factor.matrixLLT().diagonal().prod();  // of the determinant
     if (!std::isfinite(distance2) || !(root > 0)) return {infinity, -infinity};
-    return {distance2, -std::log(2 * M_PI * root)};
+    return {distance2, -std::log(gaussNorm<DIM>() * root)};
 }
 
-bool CInterpretationTree::descend(std::size_t index) {
+template <int DIM>
+bool CInterpretationTree<DIM>::descend(std::size_t index) {
     const TBranchTest tested = test(index);
     if (!std::isfinite(tested.distance2)) return false;
     const TLevel& level = m_branches[index].levels.back();
@@ -80,7 +89,7 @@ bool CInterpretationTree::descend(std::size_t index) {
     pairing.index = index;
     pairing.stamp = ++m_stamp;
     pairing.factor = level.covariance.llt().matrixL();
-    pairing.whitened = pairing.factor.triangularView<Eigen::Lower>().solve(level.value);
+    pairing.whitened = pairing.factor.template triangularView<Eigen::Lower>().solve(level.value);
     pairing.distance2 = distanceAt(m_path.size()) + tested.distance2;
     m_path.push_back(pairing);
     m_taken[m_branches[index].branch.landmark] = true;
@@ -88,9 +97,13 @@ bool CInterpretationTree::descend(std::size_t index) {
     return true;
 }
 
-void CInterpretationTree::ascend() {
+template <int DIM>
+void CInterpretationTree<DIM>::ascend() {
     m_taken[m_branches[m_path.back().index].branch.landmark] = false;
     m_path.pop_back();
 }
+
+template class CInterpretationTree<2>;
+template class CInterpretationTree<3>;
 
 }  // namespace salma::association

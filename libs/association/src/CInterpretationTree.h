@@ -17,7 +17,7 @@ struct TBranch {
 /// A branch, given the pairings on the path; infinite where its covariance is not sound.
 struct TBranchTest {
     double distance2{0};  //!< Its share of the joint squared Mahalanobis distance.
-    double logPeak{0};    //!< Log density of an innovation of zero [1/(m rad)].
+    double logPeak{0};    //!< Log density of an innovation of zero.
 };
 
 /** Walks over hypotheses; the pairings of the current one are the path from the root.
@@ -26,11 +26,12 @@ struct TBranchTest {
  * factor, level by level. A test costs O(1) for each level that the branch has not yet met, so at
  * most O(d) with d pairings, and going up costs nothing: levels are dropped when they are
  * next looked at. Source: Neira and Tardos, IEEE T-RA 17(6), 2001, for the incremental test. */
+template <int DIM>
 class CInterpretationTree {
  public:
     /** `problem` must outlive this object.
      * \param given Pairings that every hypothesis contains and that are not counted in it. */
-    CInterpretationTree(const TAssociationProblem& problem,
+    CInterpretationTree(const TAssociationProblemOf<DIM>& problem,
                         const std::vector<TBranch>& branches,
                         const std::vector<TBranch>& given);
 
@@ -40,10 +41,10 @@ class CInterpretationTree {
     TBranchTest test(std::size_t index);
 
     /// Innovation of a branch and its covariance, as the test just made found them.
-    const Eigen::Vector2d& value(std::size_t index) const {
+    const TReading<DIM>& value(std::size_t index) const {
         return m_branches[index].levels.back().value;
     }
-    const Eigen::Matrix2d& covariance(std::size_t index) const {
+    const TReadingCovariance<DIM>& covariance(std::size_t index) const {
         return m_branches[index].levels.back().covariance;
     }
 
@@ -63,10 +64,11 @@ class CInterpretationTree {
  private:
     /// A branch as the first pairings of the path leave it.
     struct TLevel {
-        std::uint64_t stamp{0};                             //!< Of the pairing that made it.
-        Eigen::Matrix2d coupling{Eigen::Matrix2d::Zero()};  //!< With that pairing, whitened.
-        Eigen::Matrix2d covariance{Eigen::Matrix2d::Zero()};
-        Eigen::Vector2d value{0, 0};  //!< Innovation [m, rad].
+        std::uint64_t stamp{0};  //!< Of the pairing that made it.
+        TReadingCovariance<DIM> coupling{
+            TReadingCovariance<DIM>::Zero()};  //!< With that pairing, whitened.
+        TReadingCovariance<DIM> covariance{TReadingCovariance<DIM>::Zero()};
+        TReading<DIM> value{TReading<DIM>::Zero()};  //!< Innovation [m, rad].
     };
     struct TState {
         TBranch branch;
@@ -76,8 +78,8 @@ class CInterpretationTree {
     struct TPairing {
         std::size_t index{0};
         std::uint64_t stamp{0};
-        Eigen::Matrix2d factor;  //!< Lower Cholesky factor of its covariance.
-        Eigen::Vector2d whitened;
+        TReadingCovariance<DIM> factor;  //!< Lower Cholesky factor of its covariance.
+        TReading<DIM> whitened;
         double distance2{0};  //!< Of the path so far.
     };
 
@@ -88,7 +90,7 @@ class CInterpretationTree {
     const TLevel& current(std::size_t index);
     void extend(TState& state) const;
 
-    const TAssociationProblem& m_problem;
+    const TAssociationProblemOf<DIM>& m_problem;
     std::vector<TState> m_branches;  //!< The given ones last.
     std::size_t m_given;             //!< Index of the first given one.
     std::vector<TPairing> m_path;

@@ -10,10 +10,11 @@ CJointCompatibility::CJointCompatibility(const TAssociationOptions& options) : m
     m_options.validate();
 }
 
-TAssociation CJointCompatibility::associate(const TAssociationProblem& problem) const {
+template <int DIM>
+TAssociation CJointCompatibility::associateIn(const TAssociationProblemOf<DIM>& problem) const {
     CGatedStep step(m_options, problem);
     CInterpretationTree tree(problem, step.branches(), step.identityPairings());
-    const CChiSquareGate gate(m_options.jointQuantile, step.openCount());
+    const CChiSquareGate gate(m_options.jointQuantile, DIM, step.openCount());
     CJointSearch search(tree, gate);
     const auto limit = static_cast<std::size_t>(m_options.searchLimit);
     const bool complete = search.branchAndBound(limit);
@@ -23,6 +24,14 @@ TAssociation CJointCompatibility::associate(const TAssociationProblem& problem) 
     for (std::size_t i = 0; i < problem.measurements.size(); ++i)
         if (step.isOpen(i)) step.settle(i, step.whyUnpaired(i), true);
     return step.finish({tree.nodes(), tree.tests(), complete});
+}
+
+TAssociation CJointCompatibility::associate(const TAssociationProblem& problem) const {
+    return associateIn(problem);
+}
+
+TAssociation CJointCompatibility::associate(const TAssociationProblem3D& problem) const {
+    return associateIn(problem);
 }
 
 }  // namespace salma::association

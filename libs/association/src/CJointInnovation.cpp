@@ -11,51 +11,66 @@ Eigen::Vector2d innovation(const Eigen::Vector2d& measured, const Eigen::Vector2
     return {measured[0] - predicted[0], mrpt::math::wrapToPi(measured[1] - predicted[1])};
 }
 
-CJointInnovation::CJointInnovation(const TAssociationProblem& problem) : m_problem(problem) {}
+Eigen::Vector3d innovation(const Eigen::Vector3d& measured, const Eigen::Vector3d& predicted) {
+    return {measured[0] - predicted[0], mrpt::math::wrapToPi(measured[1] - predicted[1]),
+            mrpt::math::wrapToPi(measured[2] - predicted[2])};
+}
 
-Eigen::MatrixXd CJointInnovation::coupling(std::size_t landmark) const {
+template <int DIM>
+CJointInnovationOf<DIM>::CJointInnovationOf(const TAssociationProblemOf<DIM>& problem)
+    : m_problem(problem) {}
+
+template <int DIM>
+Eigen::MatrixXd CJointInnovationOf<DIM>::coupling(std::size_t landmark) const {
     const Eigen::Index size = m_whitened.size();
-    Eigen::MatrixXd cross(size, 2);
+    Eigen::MatrixXd cross(size, DIM);
     for (std::size_t k = 0; k < m_landmarks.size(); ++k)
-        cross.middleRows<2>(2 * k) =
-            m_problem.predictionCovariance.block<2, 2>(2 * m_landmarks[k], 2 * landmark);
+        cross.middleRows<DIM>(DIM * k) = m_problem.predictionCovariance.template block<DIM, DIM>(
+            DIM * m_landmarks[k], DIM * landmark);
     if (size > 0) m_factor.triangularView<Eigen::Lower>().solveInPlace(cross);
     return cross;
 }
 
-std::optional<TConditionalInnovation> CJointInnovation::test(std::size_t observation,
-                                                             std::size_t landmark) const {
-    const TMeasurement& measurement = m_problem.measurements[observation];
+template <int DIM>
+std::optional<TConditionalInnovationOf<DIM>> CJointInnovationOf<DIM>::test(
+    std::size_t observation, std::size_t landmark) const {
+    const TMeasurementOf<DIM>& measurement = m_problem.measurements[observation];
     const Eigen::MatrixXd cross = coupling(landmark);
-    Eigen::Matrix2d covariance =
-        m_problem.predictionCovariance.block<2, 2>(2 * landmark, 2 * landmark) + measurement.R;
+    TReadingCovariance<DIM> covariance =
+        m_problem.predictionCovariance.template block<DIM, DIM>(DIM * landmark, DIM * landmark) +
+        measurement.R;
     covariance.noalias() -= cross.transpose() * cross;
-    TConditionalInnovation result;
+    TConditionalInnovationOf<DIM> result;
     result.value = innovation(measurement.z, m_problem.landmarks[landmark].z);
     result.value.noalias() -= cross.transpose() * m_whitened;
-    const Eigen::LLT<Eigen::Matrix2d> factor(covariance);
+    const Eigen::LLT<TReadingCovariance<DIM>> factor(covariance);
     if (factor.info() != Eigen::Success) return {};
     result.factor = factor.matrixL();
     const double determinant = result.factor.diagonal().prod();  // square root of |covariance|
     result.distance2 = factor.matrixL().solve(result.value).squaredNorm();
-    result.logDensity = -0.5 * result.distance2 - std::log(2 * M_PI * determinant);
+    result.logDensity = -0.5 * result.distance2 - std::log(gaussNorm<DIM>() * determinant);
     if (!std::isfinite(result.logDensity)) return {};
     return result;
 }
 
-bool CJointInnovation::add(std::size_t observation, std::size_t landmark) {
+template <int DIM>
+bool CJointInnovationOf<DIM>::add(std::size_t observation, std::size_t landmark) {
     const auto tested = test(observation, landmark);
     if (!tested) return false;
     const Eigen::MatrixXd cross = coupling(landmark);
     const Eigen::Index size = m_whitened.size();
-    m_factor.conservativeResize(size + 2, size + 2);
-    m_factor.topRightCorner(size, 2).setZero();
-    m_factor.bottomLeftCorner(2, size) = cross.transpose();
-    m_factor.bottomRightCorner<2, 2>() = tested->factor;
-    m_whitened.conservativeResize(size + 2);
-    m_whitened.tail<2>() = tested->factor.triangularView<Eigen::Lower>().solve(tested->value);
+    m_factor.conservativeResize(size + DIM, size + DIM);
+    m_factor.topRightCorner(size, DIM).setZero();
+    m_factor.bottomLeftCorner(DIM, size) = cross.transpose();
+    m_factor.bottomRightCorner<DIM, DIM>() = tested->factor;
+    m_whitened.conservativeResize(size + DIM);
+    m_whitened.tail<DIM>() =
+        tested->factor.template triangularView<Eigen::Lower>().solve(tested->value);
     m_landmarks.push_back(landmark);
     return true;
 }
+
+template class CJointInnovationOf<2>;
+template class CJointInnovationOf<3>;
 
 }  // namespace salma::association

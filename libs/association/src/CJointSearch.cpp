@@ -16,7 +16,8 @@ constexpr std::size_t testsPerStart = 2000;
 
 }  // namespace
 
-CJointSearch::CJointSearch(CInterpretationTree& tree, const CChiSquareGate& gate)
+template <int DIM>
+CJointSearch<DIM>::CJointSearch(CInterpretationTree<DIM>& tree, const CChiSquareGate& gate)
     : m_tree(tree), m_gate(gate) {
     std::size_t landmarks = 0;
     for (std::size_t i = 0; i < tree.size(); ++i)
@@ -24,7 +25,8 @@ CJointSearch::CJointSearch(CInterpretationTree& tree, const CChiSquareGate& gate
     m_lastSeen.assign(landmarks, 0);
 }
 
-CJointSearch::TFront CJointSearch::rootFront() const {
+template <int DIM>
+typename CJointSearch<DIM>::TFront CJointSearch<DIM>::rootFront() const {
     TFront front;
     for (std::size_t i = 0; i < m_tree.size(); ++i) {
         if (i == 0 || m_tree[i].observation != m_tree[i - 1].observation) front.emplace_back();
@@ -33,7 +35,8 @@ CJointSearch::TFront CJointSearch::rootFront() const {
     return front;
 }
 
-CJointSearch::TFront CJointSearch::tested(const TFront& front) {
+template <int DIM>
+typename CJointSearch<DIM>::TFront CJointSearch<DIM>::tested(const TFront& front) {
     // No hypothesis below has more pairings, so none has a larger gate; distances only grow.
     const double room = m_gate(m_tree.depth() + front.size()) - m_tree.distance2();
     TFront result;
@@ -54,7 +57,8 @@ CJointSearch::TFront CJointSearch::tested(const TFront& front) {
     return result;
 }
 
-std::size_t CJointSearch::bound(const TFront& front) {
+template <int DIM>
+std::size_t CJointSearch<DIM>::bound(const TFront& front) {
     ++m_looks;
     std::size_t landmarks = 0;
     for (const auto& survivors : front)
@@ -66,7 +70,8 @@ std::size_t CJointSearch::bound(const TFront& front) {
     return m_tree.depth() + std::min(front.size(), landmarks);
 }
 
-bool CJointSearch::promises(const TFront& front, std::size_t bound) const {
+template <int DIM>
+bool CJointSearch<DIM>::promises(const TFront& front, std::size_t bound) const {
     if (front.empty() || bound < m_best.branches.size()) return false;
     double distance2 = m_tree.distance2();
     if (bound == m_tree.depth() + front.size() && bound == m_best.branches.size()) {
@@ -80,7 +85,8 @@ bool CJointSearch::promises(const TFront& front, std::size_t bound) const {
            (bound > m_best.branches.size() || distance2 < m_best.distance2);
 }
 
-void CJointSearch::consider() {
+template <int DIM>
+void CJointSearch<DIM>::consider() {
     const std::size_t pairings = m_path.size();
     const double distance2 = m_tree.distance2();
     const std::size_t most = m_best.branches.size();
@@ -90,7 +96,8 @@ void CJointSearch::consider() {
     m_best = {m_path, distance2};
 }
 
-void CJointSearch::explore(TFront front) {
+template <int DIM>
+void CJointSearch<DIM>::explore(TFront front) {
     while (promises(front, bound(front)) && m_tree.tests() < m_lastTest) {
         // The least ambiguous observation first: its pairing tells most about the others.
         const auto next = std::min_element(front.begin(), front.end(), [](auto& a, auto& b) {
@@ -111,24 +118,28 @@ void CJointSearch::explore(TFront front) {
     }
 }
 
-bool CJointSearch::branchAndBound(std::size_t tests) {
+template <int DIM>
+bool CJointSearch<DIM>::branchAndBound(std::size_t tests) {
     m_lastTest = m_tree.tests() + tests;
     explore(tested(rootFront()));
     return m_tree.tests() < m_lastTest;
 }
 
-void CJointSearch::ascendTo(std::size_t depth) {
+template <int DIM>
+void CJointSearch<DIM>::ascendTo(std::size_t depth) {
     for (; m_path.size() > depth; m_path.pop_back()) m_tree.ascend();
 }
 
-TJointHypothesis CJointSearch::bestOf(const TFront& few, std::size_t tests) {
+template <int DIM>
+TJointHypothesis CJointSearch<DIM>::bestOf(const TFront& few, std::size_t tests) {
     const TJointHypothesis before = std::exchange(m_best, {});
     m_lastTest = m_tree.tests() + tests;
     explore(tested(few));
     return std::exchange(m_best, before);
 }
 
-void CJointSearch::addNearest(const std::vector<TSurvivor>& survivors) {
+template <int DIM>
+void CJointSearch<DIM>::addNearest(const std::vector<TSurvivor>& survivors) {
     TSurvivor nearest{0, m_gate(m_tree.depth() + 1) - m_tree.distance2()};
     bool found = false;
     for (const TSurvivor& survivor : survivors) {
@@ -141,7 +152,8 @@ void CJointSearch::addNearest(const std::vector<TSurvivor>& survivors) {
     if (found && m_tree.descend(nearest.branch)) m_path.push_back(nearest.branch);
 }
 
-void CJointSearch::randomised(std::size_t tests, std::uint32_t seed) {
+template <int DIM>
+void CJointSearch<DIM>::randomised(std::size_t tests, std::uint32_t seed) {
     std::mt19937 random(seed);
     TFront front = rootFront();
     const std::size_t few = std::min(startingPairings, front.size());
@@ -167,5 +179,8 @@ void CJointSearch::randomised(std::size_t tests, std::uint32_t seed) {
                                      std::ceil(std::log(failureProbability) / std::log1p(-right))));
     }
 }
+
+template class CJointSearch<2>;
+template class CJointSearch<3>;
 
 }  // namespace salma::association

@@ -16,10 +16,11 @@ struct TJointHypothesis {
 };
 
 /// Searches the jointly compatible hypothesis with most pairings, then smallest joint distance.
+template <int DIM>
 class CJointSearch {
  public:
     /// Both must outlive this object. \param tree Its branches pass the individual gate.
-    CJointSearch(CInterpretationTree& tree, const CChiSquareGate& gate);
+    CJointSearch(CInterpretationTree<DIM>& tree, const CChiSquareGate& gate);
 
     /// Depth first with a sound bound. \return False if `tests` were not enough.
     bool branchAndBound(std::size_t tests);
@@ -49,7 +50,7 @@ class CJointSearch {
     std::size_t descendAll(const TJointHypothesis& hypothesis);
     void ascendTo(std::size_t depth);
 
-    CInterpretationTree& m_tree;
+    CInterpretationTree<DIM>& m_tree;
     const CChiSquareGate& m_gate;
     std::vector<std::size_t> m_path;  //!< Branches from the root to where the tree stands.
     TJointHypothesis m_best;

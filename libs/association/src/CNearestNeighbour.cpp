@@ -9,7 +9,8 @@ CNearestNeighbour::CNearestNeighbour(const TAssociationOptions& options) : m_opt
     m_options.validate();
 }
 
-TAssociation CNearestNeighbour::associate(const TAssociationProblem& problem) const {
+template <int DIM>
+TAssociation CNearestNeighbour::associateIn(const TAssociationProblemOf<DIM>& problem) const {
     CGatedStep step(m_options, problem);
     const std::size_t count = problem.measurements.size();
     for (const TGatedPair& near : nearestPairs(step, count))
@@ -18,6 +19,14 @@ TAssociation CNearestNeighbour::associate(const TAssociationProblem& problem) co
     for (std::size_t i = 0; i < count; ++i)
         if (step.isOpen(i)) step.settle(i, EReason::taken, false);
     return step.finish();
+}
+
+TAssociation CNearestNeighbour::associate(const TAssociationProblem& problem) const {
+    return associateIn(problem);
+}
+
+TAssociation CNearestNeighbour::associate(const TAssociationProblem3D& problem) const {
+    return associateIn(problem);
 }
 
 }  // namespace salma::association

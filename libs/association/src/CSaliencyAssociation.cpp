@@ -16,11 +16,12 @@ namespace {
 constexpr std::size_t none = TSearchGoal::nothing;
 
 /// Decides the open measurements of one step.
+template <int DIM>
 class CWeighing {
  public:
     CWeighing(const TAssociationOptions& options,
-              const TAssociationProblem& problem,
-              CGatedStep& step);
+              const TAssociationProblemOf<DIM>& problem,
+              CGatedStep<DIM>& step);
 
     TAssociation run();
 
@@ -34,12 +35,12 @@ class CWeighing {
     void settleTheRest();
 
     const TAssociationOptions& m_options;
-    const TAssociationProblem& m_problem;
-    CGatedStep& m_step;
-    CInterpretationTree m_tree;
-    CHypothesisScore m_score;
+    const TAssociationProblemOf<DIM>& m_problem;
+    CGatedStep<DIM>& m_step;
+    CInterpretationTree<DIM> m_tree;
+    CHypothesisScore<DIM> m_score;
     CChiSquareGate m_gate;
-    CScoredSearch m_search;
+    CScoredSearch<DIM> m_search;
     std::vector<std::size_t> m_rowOf;  //!< By branch.
     TScoredHypothesis m_best;
     std::vector<std::size_t> m_assignment;         //!< Of the best hypothesis.
@@ -47,15 +48,16 @@ class CWeighing {
     bool m_complete{true};
 };
 
-CWeighing::CWeighing(const TAssociationOptions& options,
-                     const TAssociationProblem& problem,
-                     CGatedStep& step)
+template <int DIM>
+CWeighing<DIM>::CWeighing(const TAssociationOptions& options,
+                          const TAssociationProblemOf<DIM>& problem,
+                          CGatedStep<DIM>& step)
     : m_options(options),
       m_problem(problem),
       m_step(step),
       m_tree(problem, step.branches(true), step.identityPairings()),
       m_score(options, problem, step, step.branches(true)),
-      m_gate(options.jointQuantile, step.openCount()),
+      m_gate(options.jointQuantile, DIM, step.openCount()),
       m_search(m_tree, m_score, m_gate, options.newDistance2) {
     std::vector<TExplainable> rows;
     for (std::size_t k = 0; k < m_tree.size(); ++k) {
@@ -69,13 +71,15 @@ CWeighing::CWeighing(const TAssociationOptions& options,
     m_doubts.resize(rows.size());
 }
 
-std::vector<std::size_t> CWeighing::assignment(const TScoredHypothesis& hypothesis) const {
+template <int DIM>
+std::vector<std::size_t> CWeighing<DIM>::assignment(const TScoredHypothesis& hypothesis) const {
     std::vector<std::size_t> result(m_doubts.size(), none);
     for (const std::size_t branch : hypothesis.branches) result[m_rowOf[branch]] = branch;
     return result;
 }
 
-void CWeighing::findBest() {
+template <int DIM>
+void CWeighing<DIM>::findBest() {
     const auto limit = static_cast<std::size_t>(m_options.searchLimit);
     m_best = m_search.find({}, limit);
     m_complete = m_search.isComplete();
@@ -84,7 +88,8 @@ void CWeighing::findBest() {
 
 /* A measurement is in doubt if a hypothesis that explains it otherwise comes within the margin of
  * the best one. */
-void CWeighing::findDoubts() {
+template <int DIM>
+void CWeighing<DIM>::findDoubts() {
     const std::size_t lastTest = m_tree.tests() + static_cast<std::size_t>(m_options.searchLimit);
     for (std::size_t row = 0; row < m_doubts.size(); ++row) {
         if (m_doubts[row]) continue;
@@ -110,7 +115,8 @@ void CWeighing::findDoubts() {
 
 /* What is in doubt supports nobody, so the rest is judged without it: pairings that do not agree
  * with all others go, the worst first. */
-void CWeighing::dropOutliers() {
+template <int DIM>
+void CWeighing<DIM>::dropOutliers() {
     const std::vector<TBranch>& given = m_step.identityPairings();
     const double givenDistance2 = leaveOneOut(m_problem, given).jointDistance2;
     std::vector<std::size_t> kept;
@@ -140,7 +146,8 @@ void CWeighing::dropOutliers() {
  * What it knows grows with each pairing, so this goes on while one more is sharp enough. It is
  * judged by the peak: a limit on the density itself would be a hidden, narrower gate, and a filter
  * that only hears of small innovations becomes too sure of itself. */
-void CWeighing::pairTheSharp() {
+template <int DIM>
+void CWeighing<DIM>::pairTheSharp() {
     for (bool found = true; found;) {
         found = false;
         for (std::size_t row = 0; row < m_doubts.size(); ++row) {
@@ -159,7 +166,8 @@ void CWeighing::pairTheSharp() {
     }
 }
 
-void CWeighing::settleTheRest() {
+template <int DIM>
+void CWeighing<DIM>::settleTheRest() {
     std::vector<std::optional<EReason>> reasons(m_problem.measurements.size());
     for (std::size_t row = 0; row < m_doubts.size(); ++row) {
         const std::size_t observation = m_search.rows()[row].observation;
@@ -172,7 +180,8 @@ void CWeighing::settleTheRest() {
             m_step.settle(i, reasons[i] ? *reasons[i] : m_step.whyUnpaired(i), true);
 }
 
-TAssociation CWeighing::run() {
+template <int DIM>
+TAssociation CWeighing<DIM>::run() {
     double score = 0;  // of what lies near no landmark
     std::vector<bool> hasRow(m_problem.measurements.size(), false);
     for (const TExplainable& row : m_search.rows()) hasRow[row.observation] = true;
@@ -188,7 +197,7 @@ TAssociation CWeighing::run() {
         pairTheSharp();
         settleTheRest();
     } else {
-        CBestFirst(m_options, m_step, m_problem.measurements).run();
+        CBestFirst<DIM>(m_options, m_step, m_problem.measurements).run();
     }
     TAssociation result = m_step.finish({m_tree.nodes(), m_tree.tests(), m_complete});
     result.score = score + m_best.score;
@@ -202,10 +211,19 @@ CSaliencyAssociation::CSaliencyAssociation(const TAssociationOptions& options)
     m_options.validate();
 }
 
-TAssociation CSaliencyAssociation::associate(const TAssociationProblem& problem) const {
+template <int DIM>
+TAssociation CSaliencyAssociation::associateIn(const TAssociationProblemOf<DIM>& problem) const {
     CGatedStep step(m_options, problem);
     step.weighAppearance();
     return CWeighing(m_options, problem, step).run();
+}
+
+TAssociation CSaliencyAssociation::associate(const TAssociationProblem& problem) const {
+    return associateIn(problem);
+}
+
+TAssociation CSaliencyAssociation::associate(const TAssociationProblem3D& problem) const {
+    return associateIn(problem);
 }
 
 }  // namespace salma::association

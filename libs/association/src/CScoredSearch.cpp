@@ -2,6 +2,7 @@
 #include "CScoredSearch.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -14,18 +15,30 @@ bool contains(const std::vector<std::size_t>& branches, std::size_t branch) {
     return std::find(branches.begin(), branches.end(), branch) != branches.end();
 }
 
+/// Of a symmetric matrix.
+double largestEigenvalue(const Eigen::Matrix2d& m) {
+    return m.trace() / 2 + std::hypot((m(0, 0) - m(1, 1)) / 2, m(1, 0));
+}
+
+double largestEigenvalue(const Eigen::Matrix3d& m) {
+    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m, Eigen::EigenvaluesOnly)
+        .eigenvalues()[2];
+}
+
 }  // namespace
 
-CScoredSearch::CScoredSearch(CInterpretationTree& tree,
-                             const CHypothesisScore& score,
-                             const CChiSquareGate& gate,
-                             double newDistance2)
+template <int DIM>
+CScoredSearch<DIM>::CScoredSearch(CInterpretationTree<DIM>& tree,
+                                  const CHypothesisScore<DIM>& score,
+                                  const CChiSquareGate& gate,
+                                  double newDistance2)
     : m_tree(tree), m_score(score), m_gate(gate), m_newDistance2(newDistance2) {
     for (std::size_t k = 0; k < tree.size(); ++k)
         m_landmarks = std::max(m_landmarks, tree[k].landmark + 1);
 }
 
-TScoredHypothesis CScoredSearch::find(const TSearchGoal& goal, std::size_t lastTest) {
+template <int DIM>
+TScoredHypothesis CScoredSearch<DIM>::find(const TSearchGoal& goal, std::size_t lastTest) {
     m_goal = goal;
     m_lastTest = lastTest;
     m_complete = m_tree.tests() < lastTest;
@@ -46,20 +59,20 @@ TScoredHypothesis CScoredSearch::find(const TSearchGoal& goal, std::size_t lastT
 
 /* Pairings still to come that shift the innovation by delta, and take its covariance from S to no
  * less than the floor F, have a joint distance theta of at least delta' (S - F)^-1 delta. */
-CScoredSearch::TReach CScoredSearch::reach(std::size_t branch,
-                                           const TBranchTest& tested,
-                                           const TProspect& prospect) const {
+template <int DIM>
+typename CScoredSearch<DIM>::TReach CScoredSearch<DIM>::reach(std::size_t branch,
+                                                              const TBranchTest& tested,
+                                                              const TProspect& prospect) const {
     const std::size_t landmark = m_tree[branch].landmark;
     const bool shared = prospect.claims[landmark] > 0 || m_tree.isTaken(landmark);
-    const Eigen::LLT<Eigen::Matrix2d> floor(m_score.floor(branch, shared));
+    const Eigen::LLT<TReadingCovariance<DIM>> floor(m_score.floor(branch, shared));
     TReach result;
     if (floor.info() != Eigen::Success) return result;
     result.now = floor.matrixL().solve(m_tree.value(branch)).norm();
-    Eigen::Matrix2d grown = floor.matrixL().solve(m_tree.covariance(branch));
-    grown = floor.matrixL().solve(Eigen::Matrix2d(grown.transpose()));
-    const double spread = std::hypot((grown(0, 0) - grown(1, 1)) / 2, grown(1, 0));
+    TReadingCovariance<DIM> grown = floor.matrixL().solve(m_tree.covariance(branch));
+    grown = floor.matrixL().solve(TReadingCovariance<DIM>(grown.transpose()));
     // Largest eigenvalue of S - F in units of F; a little more, against rounding.
-    result.excess = std::max(0., grown.trace() / 2 + spread - 1) + 1e-9;
+    result.excess = std::max(0., largestEigenvalue(grown) - 1) + 1e-9;
     const double shift = std::sqrt(result.excess / (1 + result.excess) * prospect.room);
     const double nearest = std::sqrt(tested.distance2) - shift;
     result.nearest2 = nearest > 0 ? nearest * nearest : 0;
@@ -67,12 +80,14 @@ CScoredSearch::TReach CScoredSearch::reach(std::size_t branch,
 }
 
 /// The theta that it takes to carry an innovation to a distance.
-double CScoredSearch::costOf(const TReach& reach, double distance) {
+template <int DIM>
+double CScoredSearch<DIM>::costOf(const TReach& reach, double distance) {
     const double shift = distance - reach.now;
     return shift > 0 ? shift * shift / reach.excess : 0;
 }
 
-CScoredSearch::TRow CScoredSearch::judged(const TRow& row, TProspect& prospect) {
+template <int DIM>
+typename CScoredSearch<DIM>::TRow CScoredSearch<DIM>::judged(const TRow& row, TProspect& prospect) {
     TRow result;
     result.what = row.what;
     result.surelyClear = true;
@@ -109,9 +124,10 @@ CScoredSearch::TRow CScoredSearch::judged(const TRow& row, TProspect& prospect) 
     return result;
 }
 
-void CScoredSearch::rate(const std::vector<std::pair<double, std::size_t>>& likely,
-                         double room,
-                         TRow& row) const {
+template <int DIM>
+void CScoredSearch<DIM>::rate(const std::vector<std::pair<double, std::size_t>>& likely,
+                              double room,
+                              TRow& row) const {
     row.bestAlone = row.clutter;
     if (row.clearCost <= room)
         row.bestAlone = std::max(row.clutter, m_score.unexplained(row.what->observation));
@@ -128,7 +144,8 @@ void CScoredSearch::rate(const std::vector<std::pair<double, std::size_t>>& like
     row.lead = likely[0].first - std::max(row.bestAlone, second);
 }
 
-CScoredSearch::TRows CScoredSearch::judged(const TRows& rows) {
+template <int DIM>
+typename CScoredSearch<DIM>::TRows CScoredSearch<DIM>::judged(const TRows& rows) {
     const auto open = static_cast<std::size_t>(
         std::count_if(rows.begin(), rows.end(), [](const TRow& row) { return !row.left; }));
     TProspect prospect;
@@ -142,7 +159,8 @@ CScoredSearch::TRows CScoredSearch::judged(const TRows& rows) {
     return result;
 }
 
-bool CScoredSearch::promises(const TRows& rows) const {
+template <int DIM>
+bool CScoredSearch<DIM>::promises(const TRows& rows) const {
     std::size_t open = 0;
     for (const TRow& row : rows) open += !row.left;
     return m_tree.distance2() <= m_gate(m_tree.depth() + open) && bound(rows, 0) > m_best.score &&
@@ -153,7 +171,8 @@ bool CScoredSearch::promises(const TRows& rows) const {
 
 /* Largest score of hypotheses below whose pairings to come have a joint distance theta of at least
  * `leastTheta`. To be clear of its landmarks a measurement may need more, but all can share it. */
-double CScoredSearch::bound(const TRows& rows, double leastTheta) const {
+template <int DIM>
+double CScoredSearch<DIM>::bound(const TRows& rows, double leastTheta) const {
     double score = m_pathScore;
     std::vector<std::pair<double, double>> clearings;  // cost, gain
     for (const TRow& row : rows) {
@@ -176,7 +195,8 @@ double CScoredSearch::bound(const TRows& rows, double leastTheta) const {
 /* A hypothesis that leaves a measurement out though its pairing would raise the score is not the
  * best one. So a hypothesis below either has a theta so large that the pairing would not pay, or it
  * is so near to the joint gate that it has no room for the pairing. */
-double CScoredSearch::boundWithout(const TRow& left, const TRows& rows) const {
+template <int DIM>
+double CScoredSearch<DIM>::boundWithout(const TRow& left, const TRows& rows) const {
     const double infinity = std::numeric_limits<double>::infinity();
     const std::size_t landmark = m_tree[*left.rejected].landmark;
     double score = m_pathScore;
@@ -212,7 +232,8 @@ double CScoredSearch::boundWithout(const TRow& left, const TRows& rows) const {
     return best;
 }
 
-double CScoredSearch::aloneScore(const TExplainable& row) {
+template <int DIM>
+double CScoredSearch<DIM>::aloneScore(const TExplainable& row) {
     const double clutter = m_score.clutter(row.observation);
     const double unexplained = m_score.unexplained(row.observation);
     if (clutter >= unexplained) return clutter;
@@ -223,7 +244,8 @@ double CScoredSearch::aloneScore(const TExplainable& row) {
     return unexplained;
 }
 
-void CScoredSearch::weigh(const TRows& rows) {
+template <int DIM>
+void CScoredSearch<DIM>::weigh(const TRows& rows) {
     if (!(m_tree.distance2() <= m_gate(m_tree.depth()))) return;
     double score = m_pathScore;
     for (const TRow& row : rows) score += aloneScore(*row.what);
@@ -233,13 +255,15 @@ void CScoredSearch::weigh(const TRows& rows) {
     m_best.score = score;
 }
 
-bool CScoredSearch::isOver() {
+template <int DIM>
+bool CScoredSearch<DIM>::isOver() {
     if (m_goal.any && m_best.score > m_goal.threshold) return true;
     m_complete = m_complete && m_tree.tests() < m_lastTest;
     return !m_complete;
 }
 
-void CScoredSearch::explore(const TRows& rows) {
+template <int DIM>
+void CScoredSearch<DIM>::explore(const TRows& rows) {
     if (!promises(rows)) return;
     if (isOver()) return;
     const auto next = std::max_element(rows.begin(), rows.end(), [](const TRow& a, const TRow& b) {
@@ -271,5 +295,8 @@ void CScoredSearch::explore(const TRows& rows) {
     others.push_back(alone);
     explore(others);
 }
+
+template class CScoredSearch<2>;
+template class CScoredSearch<3>;
 
 }  // namespace salma::association

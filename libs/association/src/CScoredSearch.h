@@ -36,11 +36,12 @@ struct TSearchGoal {
 };
 
 /// Branch and bound for the hypothesis with the largest score inside the joint gate.
+template <int DIM>
 class CScoredSearch {
  public:
     /// All must outlive this object. \param newDistance2 What is nearer to a landmark is not new.
-    CScoredSearch(CInterpretationTree& tree,
-                  const CHypothesisScore& score,
+    CScoredSearch(CInterpretationTree<DIM>& tree,
+                  const CHypothesisScore<DIM>& score,
                   const CChiSquareGate& gate,
                   double newDistance2);
 
@@ -98,8 +99,8 @@ class CScoredSearch {
     void weigh(const TRows& rows);
     double aloneScore(const TExplainable& row);
 
-    CInterpretationTree& m_tree;
-    const CHypothesisScore& m_score;
+    CInterpretationTree<DIM>& m_tree;
+    const CHypothesisScore<DIM>& m_score;
     const CChiSquareGate& m_gate;
     double m_newDistance2;
     std::size_t m_landmarks{0};  //!< Above all indices of landmarks.

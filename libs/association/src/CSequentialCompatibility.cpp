@@ -10,7 +10,8 @@ namespace salma::association {
 namespace {
 
 /// Pairs in the order of test: unambiguous measurements first, of each the nearest landmark first.
-std::vector<TGatedPair> sequence(const CGatedStep& step, std::size_t observations) {
+template <int DIM>
+std::vector<TGatedPair> sequence(const CGatedStep<DIM>& step, std::size_t observations) {
     std::vector<TGatedPair> ordered = nearestPairs(step, observations);
     std::map<std::size_t, std::size_t> ofLandmark;
     for (const TGatedPair& near : ordered) ++ofLandmark[near.pair.landmark];
@@ -30,7 +31,9 @@ CSequentialCompatibility::CSequentialCompatibility(const TAssociationOptions& op
     m_options.validate();
 }
 
-TAssociation CSequentialCompatibility::associate(const TAssociationProblem& problem) const {
+template <int DIM>
+TAssociation CSequentialCompatibility::associateIn(
+    const TAssociationProblemOf<DIM>& problem) const {
     CGatedStep step(m_options, problem);
     const std::size_t count = problem.measurements.size();
     std::vector<bool> failed(count, false);
@@ -50,6 +53,14 @@ TAssociation CSequentialCompatibility::associate(const TAssociationProblem& prob
         if (step.isOpen(i))
             step.settle(i, failed[i] ? EReason::jointlyImpossible : EReason::taken, false);
     return step.finish();
+}
+
+TAssociation CSequentialCompatibility::associate(const TAssociationProblem& problem) const {
+    return associateIn(problem);
+}
+
+TAssociation CSequentialCompatibility::associate(const TAssociationProblem3D& problem) const {
+    return associateIn(problem);
 }
 
 }  // namespace salma::association

@@ -9,21 +9,23 @@
 
 namespace salma::association {
 
-TLeaveOneOut leaveOneOut(const TAssociationProblem& problem, const std::vector<TBranch>& pairings) {
+template <int DIM>
+TLeaveOneOut leaveOneOut(const TAssociationProblemOf<DIM>& problem,
+                         const std::vector<TBranch>& pairings) {
     if (pairings.empty()) return {};
-    const auto size = static_cast<Eigen::Index>(2 * pairings.size());
+    const auto size = static_cast<Eigen::Index>(DIM * pairings.size());
     Eigen::MatrixXd S(size, size);
     Eigen::VectorXd nu(size);
     for (std::size_t a = 0; a < pairings.size(); ++a) {
         const auto& measurement = problem.measurements[pairings[a].observation];
-        const auto row = static_cast<Eigen::Index>(2 * a);
-        nu.segment<2>(row) = innovation(measurement.z, problem.landmarks[pairings[a].landmark].z);
+        const auto row = static_cast<Eigen::Index>(DIM * a);
+        nu.segment<DIM>(row) = innovation(measurement.z, problem.landmarks[pairings[a].landmark].z);
         for (std::size_t b = 0; b < pairings.size(); ++b)
-            S.block<2, 2>(row, static_cast<Eigen::Index>(2 * b)) =
-                problem.predictionCovariance.block<2, 2>(
-                    static_cast<Eigen::Index>(2 * pairings[a].landmark),
-                    static_cast<Eigen::Index>(2 * pairings[b].landmark));
-        S.block<2, 2>(row, row) += measurement.R;
+            S.block<DIM, DIM>(row, static_cast<Eigen::Index>(DIM * b)) =
+                problem.predictionCovariance.template block<DIM, DIM>(
+                    static_cast<Eigen::Index>(DIM * pairings[a].landmark),
+                    static_cast<Eigen::Index>(DIM * pairings[b].landmark));
+        S.block<DIM, DIM>(row, row) += measurement.R;
     }
     const double infinity = std::numeric_limits<double>::infinity();
     const Eigen::LLT<Eigen::MatrixXd> factor(S);
@@ -33,11 +35,14 @@ TLeaveOneOut leaveOneOut(const TAssociationProblem& problem, const std::vector<T
     const Eigen::VectorXd weighted = information * nu;
     TLeaveOneOut result;
     result.jointDistance2 = nu.dot(weighted);
-    for (Eigen::Index row = 0; row < size; row += 2) {
-        const Eigen::Vector2d own = weighted.segment<2>(row);
-        result.distance2.push_back(own.dot(information.block<2, 2>(row, row).inverse() * own));
+    for (Eigen::Index row = 0; row < size; row += DIM) {
+        const TReading<DIM> own = weighted.segment<DIM>(row);
+        result.distance2.push_back(own.dot(information.block<DIM, DIM>(row, row).inverse() * own));
     }
     return result;
 }
+
+template TLeaveOneOut leaveOneOut<2>(const TAssociationProblem&, const std::vector<TBranch>&);
+template TLeaveOneOut leaveOneOut<3>(const TAssociationProblem3D&, const std::vector<TBranch>&);
 
 }  // namespace salma::association

@@ -11,6 +11,8 @@ struct TLeaveOneOut {
 };
 
 /// Infinite where the joint covariance is not sound.
-TLeaveOneOut leaveOneOut(const TAssociationProblem& problem, const std::vector<TBranch>& pairings);
+template <int DIM>
+TLeaveOneOut leaveOneOut(const TAssociationProblemOf<DIM>& problem,
+                         const std::vector<TBranch>& pairings);
 
 }  // namespace salma::association

@@ -6,7 +6,8 @@
 
 namespace salma::association {
 
-std::vector<TGatedPair> nearestPairs(const CGatedStep& step, std::size_t observations) {
+template <int DIM>
+std::vector<TGatedPair> nearestPairs(const CGatedStep<DIM>& step, std::size_t observations) {
     std::vector<TGatedPair> found;
     for (std::size_t i = 0; i < observations; ++i)
         for (const TPair& pair : step.pairs(i))
@@ -17,5 +18,8 @@ std::vector<TGatedPair> nearestPairs(const CGatedStep& step, std::size_t observa
     });
     return found;
 }
+
+template std::vector<TGatedPair> nearestPairs(const CGatedStep<2>&, std::size_t);
+template std::vector<TGatedPair> nearestPairs(const CGatedStep<3>&, std::size_t);
 
 }  // namespace salma::association

@@ -11,6 +11,7 @@ struct TGatedPair {
 };
 
 /// All pairs inside the individual gate, the nearest first.
-std::vector<TGatedPair> nearestPairs(const CGatedStep& step, std::size_t observations);
+template <int DIM>
+std::vector<TGatedPair> nearestPairs(const CGatedStep<DIM>& step, std::size_t observations);
 
 }  // namespace salma::association

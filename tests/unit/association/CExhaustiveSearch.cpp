@@ -8,30 +8,38 @@
 namespace salma::association::test {
 namespace {
 
-/// Quantiles of 99 % of chi-square with 0, 2, 4, ... degrees of freedom, from printed tables.
+/// Quantiles of 99 % of chi-square with 0, DIM, 2 DIM, ... degrees of freedom, from printed tables.
+template <int DIM>
 constexpr double limits[] = {0, 9.21034037, 13.27670414, 16.81189383, 20.09023503, 23.20925116};
+template <>
+constexpr double limits<3>[] = {0, 11.34486673, 16.81189383, 21.66599433, 26.21696731, 30.57791417};
 
-Eigen::Vector2d innovationOf(const TMeasurement& measurement, const TPredictedLandmark& landmark) {
-    const double turn = measurement.z[1] - landmark.z[1];
-    return {measurement.z[0] - landmark.z[0], std::atan2(std::sin(turn), std::cos(turn))};
+template <int DIM>
+TReading<DIM> innovationOf(const TMeasurementOf<DIM>& measurement,
+                           const TPredictedLandmarkOf<DIM>& landmark) {
+    TReading<DIM> nu = measurement.z - landmark.z;
+    for (int k = 1; k < DIM; ++k) nu[k] = std::atan2(std::sin(nu[k]), std::cos(nu[k]));
+    return nu;
 }
 
 }  // namespace
 
-CExhaustiveSearch::CExhaustiveSearch(const TAssociationProblem& problem)
+template <int DIM>
+CExhaustiveSearch<DIM>::CExhaustiveSearch(const TAssociationProblemOf<DIM>& problem)
     : m_problem(problem),
       m_candidates(problem.measurements.size()),
       m_now(problem.measurements.size(), -1) {
     for (std::size_t i = 0; i < m_now.size(); ++i) {
         for (std::size_t j = 0; j < problem.landmarks.size(); ++j) {
             m_now[i] = static_cast<int>(j);
-            if (distance2() <= limits[1]) m_candidates[i].push_back(m_now[i]);
+            if (distance2() <= limits<DIM>[1]) m_candidates[i].push_back(m_now[i]);
         }
         m_now[i] = -1;
     }
 }
 
-TExhaustiveResult CExhaustiveSearch::mostPairings() {
+template <int DIM>
+TExhaustiveResult CExhaustiveSearch<DIM>::mostPairings() {
     m_best = {};
     m_best.landmarks = m_now;
     for (const auto& candidates : m_candidates)
@@ -40,7 +48,8 @@ TExhaustiveResult CExhaustiveSearch::mostPairings() {
     return m_best;
 }
 
-void CExhaustiveSearch::visit(std::size_t observation, const std::function<void()>& consider) {
+template <int DIM>
+void CExhaustiveSearch<DIM>::visit(std::size_t observation, const std::function<void()>& consider) {
     if (observation == m_now.size()) return consider();
     for (const int landmark : m_candidates[observation]) {
         if (std::find(m_now.begin(), m_now.end(), landmark) != m_now.end()) continue;
@@ -51,53 +60,58 @@ void CExhaustiveSearch::visit(std::size_t observation, const std::function<void(
     visit(observation + 1, consider);
 }
 
-void CExhaustiveSearch::consider() {
+template <int DIM>
+void CExhaustiveSearch<DIM>::consider() {
     const std::size_t pairings =
         m_now.size() - static_cast<std::size_t>(std::count(m_now.begin(), m_now.end(), -1));
     if (pairings < m_best.pairings || pairings == 0) return;
     const double distance = distance2();
-    if (!(distance <= limits[pairings])) return;
+    if (!(distance <= limits<DIM>[pairings])) return;
     if (pairings == m_best.pairings && !(distance < m_best.distance2)) return;
     m_best.landmarks = m_now;
     m_best.pairings = pairings;
     m_best.distance2 = distance;
 }
 
-double CExhaustiveSearch::distance2() const {
+template <int DIM>
+double CExhaustiveSearch<DIM>::distance2() const {
     std::vector<double> values;
     for (std::size_t i = 0; i < m_now.size(); ++i) {
         if (m_now[i] < 0) continue;
-        const Eigen::Vector2d own = innovationOf(
+        const TReading<DIM> own = innovationOf(
             m_problem.measurements[i], m_problem.landmarks[static_cast<std::size_t>(m_now[i])]);
-        values.insert(values.end(), {own[0], own[1]});
+        values.insert(values.end(), own.begin(), own.end());
     }
     const Eigen::Map<const Eigen::VectorXd> nu(values.data(),
                                                static_cast<Eigen::Index>(values.size()));
     return nu.dot(covariance().inverse() * nu);
 }
 
-double CExhaustiveSearch::logDeterminant() const {
+template <int DIM>
+double CExhaustiveSearch<DIM>::logDeterminant() const {
     return std::log((2 * M_PI * covariance()).determinant());
 }
 
-Eigen::MatrixXd CExhaustiveSearch::covariance() const {
+template <int DIM>
+Eigen::MatrixXd CExhaustiveSearch<DIM>::covariance() const {
     std::vector<std::size_t> paired;
     for (std::size_t i = 0; i < m_now.size(); ++i)
         if (m_now[i] >= 0) paired.push_back(i);
-    const auto size = static_cast<Eigen::Index>(2 * paired.size());
+    const auto size = static_cast<Eigen::Index>(DIM * paired.size());
     Eigen::MatrixXd S(size, size);
     for (std::size_t a = 0; a < paired.size(); ++a) {
-        const auto row = static_cast<Eigen::Index>(2 * a);
+        const auto row = static_cast<Eigen::Index>(DIM * a);
         for (std::size_t b = 0; b < paired.size(); ++b)
-            S.block<2, 2>(row, static_cast<Eigen::Index>(2 * b)) =
-                m_problem.predictionCovariance.block<2, 2>(2 * m_now[paired[a]],
-                                                           2 * m_now[paired[b]]);
-        S.block<2, 2>(row, row) += m_problem.measurements[paired[a]].R;
+            S.block<DIM, DIM>(row, static_cast<Eigen::Index>(DIM * b)) =
+                m_problem.predictionCovariance.template block<DIM, DIM>(DIM * m_now[paired[a]],
+                                                                        DIM * m_now[paired[b]]);
+        S.block<DIM, DIM>(row, row) += m_problem.measurements[paired[a]].R;
     }
     return S;
 }
 
-void CExhaustiveSearch::dropForbidden(const TAssociationOptions& options) {
+template <int DIM>
+void CExhaustiveSearch<DIM>::dropForbidden(const TAssociationOptions& options) {
     for (std::size_t i = 0; i < m_candidates.size(); ++i) {
         auto& candidates = m_candidates[i];
         candidates.clear();
@@ -113,7 +127,8 @@ void CExhaustiveSearch::dropForbidden(const TAssociationOptions& options) {
     }
 }
 
-bool CExhaustiveSearch::isNear(std::size_t observation, const TAssociationOptions& options) {
+template <int DIM>
+bool CExhaustiveSearch<DIM>::isNear(std::size_t observation, const TAssociationOptions& options) {
     const std::vector<int> hypothesis = m_now;
     const double before = distance2();
     bool near = false;
@@ -129,7 +144,8 @@ bool CExhaustiveSearch::isNear(std::size_t observation, const TAssociationOption
     return near;
 }
 
-double CExhaustiveSearch::score(const TAssociationOptions& options) {
+template <int DIM>
+double CExhaustiveSearch<DIM>::score(const TAssociationOptions& options) {
     double score = -0.5 * (distance2() + logDeterminant());
     if (std::count(m_now.begin(), m_now.end(), -1) == static_cast<int>(m_now.size())) score = 0;
     for (std::size_t i = 0; i < m_now.size(); ++i) {
@@ -149,14 +165,15 @@ double CExhaustiveSearch::score(const TAssociationOptions& options) {
     return score;
 }
 
-TScoredResult CExhaustiveSearch::bestScored(const TAssociationOptions& options) {
+template <int DIM>
+TScoredResult CExhaustiveSearch<DIM>::bestScored(const TAssociationOptions& options) {
     dropForbidden(options);
     const auto everything = m_candidates;  // what a new landmark must be clear of
     std::vector<std::pair<double, std::vector<int>>> all;
     std::fill(m_now.begin(), m_now.end(), -1);
     const auto isInGate = [this](std::size_t i, int landmark) {
         m_now[i] = landmark;
-        const bool inGate = distance2() <= limits[1];
+        const bool inGate = distance2() <= limits<DIM>[1];
         m_now[i] = -1;
         return inGate;
     };
@@ -170,7 +187,7 @@ TScoredResult CExhaustiveSearch::bestScored(const TAssociationOptions& options) 
     visit(0, [&] {
         const auto pairings =
             m_now.size() - static_cast<std::size_t>(std::count(m_now.begin(), m_now.end(), -1));
-        if (pairings > 0 && !(distance2() <= limits[pairings])) return;
+        if (pairings > 0 && !(distance2() <= limits<DIM>[pairings])) return;
         m_candidates = everything;
         all.emplace_back(score(options), m_now);
         m_candidates = pairable;
@@ -183,5 +200,8 @@ TScoredResult CExhaustiveSearch::bestScored(const TAssociationOptions& options) 
                 if (landmarks[i] != best->second[i]) result.ambiguous[i] = true;
     return result;
 }
+
+template class CExhaustiveSearch<2>;
+template class CExhaustiveSearch<3>;
 
 }  // namespace salma::association::test

@@ -28,9 +28,10 @@ struct TScoredResult {
 /** Looks at every hypothesis of a small problem, each from scratch: the oracle of the searches.
  *
  * Shares nothing with them: whole matrices are inverted, and the gates are written down below. */
+template <int DIM>
 class CExhaustiveSearch {
  public:
-    explicit CExhaustiveSearch(const TAssociationProblem& problem);
+    explicit CExhaustiveSearch(const TAssociationProblemOf<DIM>& problem);
 
     /// Most pairings, then smallest joint distance, among those inside both gates of 99 %.
     TExhaustiveResult mostPairings();
@@ -49,7 +50,7 @@ class CExhaustiveSearch {
     double logDeterminant() const;
     Eigen::MatrixXd covariance() const;
 
-    const TAssociationProblem& m_problem;
+    const TAssociationProblemOf<DIM>& m_problem;
     std::vector<std::vector<int>> m_candidates;  //!< By measurement.
     std::vector<int> m_now;
     TExhaustiveResult m_best;

@@ -38,6 +38,23 @@ TEST(CJointCompatibility, FindsTheHypothesisOfExhaustiveSearch) {
     EXPECT_GT(losses, 2000u);
 }
 
+TEST(CJointCompatibility, FindsTheHypothesisOfExhaustiveSearchInSpace) {
+    std::mt19937 random(21);
+    const CJointCompatibility associator;
+    std::size_t pairings = 0, losses = 0;
+    for (int trial = 0; trial < 5000; ++trial) {
+        const auto problem = test::smallProblem3D(random);
+        const auto expected = test::CExhaustiveSearch(problem).mostPairings();
+        const auto result = associator.associate(problem);
+        ASSERT_EQ(landmarksOf(result), expected.landmarks) << "trial " << trial;
+        EXPECT_NEAR(result.jointDistance2, expected.distance2, 1e-6 * (1 + expected.distance2));
+        pairings += expected.pairings;
+        losses += expected.pairings < expected.individuallyCompatible;
+    }
+    EXPECT_GT(pairings, 5000u);
+    EXPECT_GT(losses, 300u);
+}
+
 TEST(CJointCompatibility, ComesAsNearByRandomStartsWhereTheLimitStopsTheSearch) {
     std::mt19937 random(12);
     TAssociationOptions options;

@@ -11,9 +11,31 @@ namespace salma::association {
 namespace {
 
 TEST(CJointInnovation, WrapsTheBearingAcrossTheHalfTurn) {
-    const Eigen::Vector2d nu = innovation({2, M_PI - 0.05}, {1.5, -M_PI + 0.05});
+    const Eigen::Vector2d nu =
+        innovation(Eigen::Vector2d(2, M_PI - 0.05), Eigen::Vector2d(1.5, -M_PI + 0.05));
     EXPECT_NEAR(nu[0], 0.5, 1e-12);
     EXPECT_NEAR(nu[1], -0.1, 1e-12);
+}
+
+TEST(CJointInnovation, WrapsYawAndPitchInSpace) {
+    const Eigen::Vector3d nu =
+        innovation(Eigen::Vector3d(2, M_PI - 0.05, 0.3), Eigen::Vector3d(1.5, -M_PI + 0.05, 0.1));
+    EXPECT_NEAR((nu - Eigen::Vector3d(0.5, -0.1, 0.2)).norm(), 0, 1e-12);
+}
+
+TEST(CJointInnovation, StatesTheDensityOfThreeDimensions) {
+    // S = 0.01 I; nu = (0.2, 0.1, 0.1): d2 = 6. log N = -3 - 1.5 log(2 pi 0.01).
+    TAssociationProblem3D problem;
+    problem.measurements.resize(1);
+    problem.measurements[0].z << 2.2, 0.1, -0.1;
+    problem.measurements[0].R *= 0.01;
+    problem.landmarks.resize(1);
+    problem.landmarks[0].z << 2, 0, -0.2;
+    problem.predictionCovariance = Eigen::Matrix3d::Zero();
+    const auto tested = CJointInnovationOf<3>(problem).test(0, 0);
+    ASSERT_TRUE(tested);
+    EXPECT_NEAR(tested->distance2, 6, 1e-9);
+    EXPECT_NEAR(tested->logDensity, -3 - 1.5 * std::log(2 * M_PI * 0.01), 1e-9);
 }
 
 TEST(CJointInnovation, TestsTheFirstPairingByItself) {

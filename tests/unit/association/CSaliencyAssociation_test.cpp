@@ -14,9 +14,9 @@
 namespace salma::association {
 namespace {
 
-/// A small problem, some of it with appearance and at the border of the view.
-TAssociationProblem describedProblem(std::mt19937& random) {
-    TAssociationProblem problem = test::smallProblem(random);
+/// The problem with some appearance, and partly at the border of the view.
+template <int DIM>
+TAssociationProblemOf<DIM> described(TAssociationProblemOf<DIM> problem, std::mt19937& random) {
     std::uniform_real_distribution<double> ratio(-4, 4);
     std::uniform_real_distribution<double> visibility(0.2, 1);
     // Those that show each other have equal indices.
@@ -37,7 +37,12 @@ struct TCounts {
     std::size_t paired{0}, ambiguous{0}, created{0}, left{0};
 };
 
-void compare(const TAssociationProblem& problem,
+TAssociationProblem describedProblem(std::mt19937& random) {
+    return described(test::smallProblem(random), random);
+}
+
+template <int DIM>
+void compare(const TAssociationProblemOf<DIM>& problem,
              const TAssociationOptions& options,
              TCounts& counts) {
     const auto expected = test::CExhaustiveSearch(problem).bestScored(options);
@@ -75,6 +80,25 @@ TEST(CSaliencyAssociation, FindsTheHypothesisAndTheDoubtsOfExhaustiveSearch) {
     EXPECT_GT(counts.paired, 2000u);
     EXPECT_GT(counts.ambiguous, 2000u);
     EXPECT_GT(counts.created, 500u);
+    std::cout << counts.paired << " paired, " << counts.ambiguous << " ambiguous, "
+              << counts.created << " new, " << counts.left << " held back" << std::endl;
+}
+
+TEST(CSaliencyAssociation, FindsTheHypothesisAndTheDoubtsOfExhaustiveSearchInSpace) {
+    std::mt19937 random(22);
+    TAssociationOptions options;
+    options.acceptLogLr = -1.9;
+    options.detectionProbability = 0.8;
+    TCounts counts;
+    for (int trial = 0; trial < 2000; ++trial) {
+        SCOPED_TRACE(trial);
+        options.cornerLogDensity = trial % 3 == 0 ? 2 : -2;
+        compare(described(test::smallProblem3D(random), random), options, counts);
+        if (HasFatalFailure()) return;
+    }
+    EXPECT_GT(counts.paired, 1000u);
+    EXPECT_GT(counts.ambiguous, 300u);
+    EXPECT_GT(counts.created, 300u);
     std::cout << counts.paired << " paired, " << counts.ambiguous << " ambiguous, "
               << counts.created << " new, " << counts.left << " held back" << std::endl;
 }

@@ -97,4 +97,41 @@ inline TAssociationProblem smallProblem(std::mt19937& random) {
     return result;
 }
 
+/// A small problem in space: those of the plane with a pitch, coupled with all else.
+inline TAssociationProblem3D smallProblem3D(std::mt19937& random) {
+    std::uniform_real_distribution<double> pitch(-0.4, 0.4);
+    std::normal_distribution<double> unit(0, 1);
+    const TAssociationProblem flat = smallProblem(random);
+    TAssociationProblem3D result;
+    const auto count = static_cast<Eigen::Index>(flat.landmarks.size());
+    result.predictionCovariance.setZero(3 * count, 3 * count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+        TPredictedLandmark3D landmark;
+        landmark.z << flat.landmarks[static_cast<std::size_t>(i)].z, pitch(random);
+        result.landmarks.push_back(landmark);
+        for (Eigen::Index j = 0; j < count; ++j) {
+            result.predictionCovariance.block<2, 2>(3 * i, 3 * j) =
+                flat.predictionCovariance.block<2, 2>(2 * i, 2 * j);
+            result.predictionCovariance(3 * i + 2, 3 * j + 2) = 0.04;  // an error of all
+        }
+    }
+    Eigen::MatrixXd mixing = Eigen::MatrixXd::Zero(3 * count, 3 * count);
+    for (Eigen::Index i = 0; i < 3 * count; ++i)
+        for (Eigen::Index j = std::max<Eigen::Index>(0, i - 4); j <= i; ++j)
+            mixing(i, j) = 0.05 * unit(random);
+    result.predictionCovariance += mixing * mixing.transpose();
+    const double common = 0.2 * unit(random);
+    for (std::size_t i = 0; i < flat.measurements.size(); ++i) {
+        TMeasurement3D measurement;
+        const double seenPitch =
+            i < result.landmarks.size() ? result.landmarks[i].z[2] + common : pitch(random);
+        measurement.z << flat.measurements[i].z, seenPitch + 0.1 * unit(random);
+        measurement.R *= 0.01;
+        measurement.R.topLeftCorner<2, 2>() = flat.measurements[i].R;
+        measurement.R(2, 0) = measurement.R(0, 2) = 0.003 * std::tanh(unit(random));
+        result.measurements.push_back(measurement);
+    }
+    return result;
+}
+
 }  // namespace salma::association::test

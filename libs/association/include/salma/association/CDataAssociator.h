@@ -15,7 +15,7 @@ namespace salma::association {
  * of that identity without a gate; if there is none it may still be a landmark without identity. A
  * landmark is paired at most once. Two landmarks of different kind, convexity, identity or wall are
  * never paired. What is not paired makes a new landmark only if it is clearly apart from every
- * landmark that it could be; otherwise it is deferred. Bearings are compared across the half turn.
+ * landmark that it could be; otherwise it is deferred. Angles are compared across the half turn.
  * The result does not depend on the order of measurements or landmarks, exact ties aside. */
 class CDataAssociator {
  public:
@@ -25,6 +25,7 @@ class CDataAssociator {
      * \throw std::invalid_argument if the covariance's size does not fit the landmarks or one of
      * its entries is not finite. */
     virtual TAssociation associate(const TAssociationProblem& problem) const = 0;
+    virtual TAssociation associate(const TAssociationProblem3D& problem) const = 0;
 };
 
 /// The associator that `options.method` names. \throw std::invalid_argument for bad options.

@@ -22,8 +22,12 @@ class CJointCompatibility : public CDataAssociator {
     explicit CJointCompatibility(const TAssociationOptions& options = {});
 
     TAssociation associate(const TAssociationProblem& problem) const override;
+    TAssociation associate(const TAssociationProblem3D& problem) const override;
 
  private:
+    template <int DIM>
+    TAssociation associateIn(const TAssociationProblemOf<DIM>& problem) const;
+
     TAssociationOptions m_options;
 };
 

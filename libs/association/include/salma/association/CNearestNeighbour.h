@@ -15,8 +15,12 @@ class CNearestNeighbour : public CDataAssociator {
     explicit CNearestNeighbour(const TAssociationOptions& options = {});
 
     TAssociation associate(const TAssociationProblem& problem) const override;
+    TAssociation associate(const TAssociationProblem3D& problem) const override;
 
  private:
+    template <int DIM>
+    TAssociation associateIn(const TAssociationProblemOf<DIM>& problem) const;
+
     TAssociationOptions m_options;
 };
 

@@ -39,7 +39,7 @@ struct TDecision {
 struct TCandidate {
     std::size_t observation{0};
     std::size_t landmark{0};
-    double distance2{0};  //!< Squared Mahalanobis distance, wrapped in the bearing.
+    double distance2{0};  //!< Squared Mahalanobis distance, wrapped in the angles.
     double logRatio{std::numeric_limits<double>::quiet_NaN()};  //!< NaN without appearance.
     bool chosen{false};
 };
@@ -70,7 +70,7 @@ struct TAssociation {
     std::vector<TDecision> decisions;    //!< One per measurement; a landmark occurs at most once.
     std::vector<TCandidate> candidates;  //!< Sorted by observation, then landmark.
     std::size_t pairings{0};
-    double jointDistance2{0};  //!< Of all pairings together; 2 degrees of freedom each.
+    double jointDistance2{0};  //!< Of all pairings together.
     double logRatio{0};        //!< Sum over the pairings whose appearance was compared.
     /// Log score of the best hypothesis less log(1 - P_D) of all landmarks, a constant [nats];
     /// NaN for methods that have none.

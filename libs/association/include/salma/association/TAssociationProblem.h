@@ -13,9 +13,10 @@
 namespace salma::association {
 
 /// What the map expects to see of a landmark, in the robot frame at the step's time.
-struct TPredictedLandmark {
+template <int DIM>
+struct TPredictedLandmarkOf {
     ELandmarkKind kind{ELandmarkKind::corner};
-    Eigen::Vector2d z{0, 0};      //!< Predicted range [m] and bearing [rad].
+    TReading<DIM> z{TReading<DIM>::Zero()};
     bool visible{true};           //!< Within the sensor's reach; others are no candidates.
     std::optional<int> identity;  //!< As the log states it, if it ever did.
     /// Expected direction of the wall's normal [rad]; NaN if the wall is not known.
@@ -25,10 +26,11 @@ struct TPredictedLandmark {
 };
 
 /// Measurements of one step against the landmarks of the map.
-struct TAssociationProblem {
-    std::vector<TMeasurement> measurements;     //!< M, with their covariances R.
-    std::vector<TPredictedLandmark> landmarks;  //!< N
-    /// H P H' of all predictions together, without R [2N x 2N], range and bearing in turn.
+template <int DIM>
+struct TAssociationProblemOf {
+    std::vector<TMeasurementOf<DIM>> measurements;     //!< M, with their covariances R.
+    std::vector<TPredictedLandmarkOf<DIM>> landmarks;  //!< N
+    /// H P H' of all predictions together, without R [DIM N x DIM N], landmark by landmark.
     Eigen::MatrixXd predictionCovariance;
     /// Log likelihood ratio same/other of the appearance of a measurement and a landmark, called
     /// at most once per pair, only for pairs of salient landmarks that geometry allows; NaN means
@@ -38,5 +40,10 @@ struct TAssociationProblem {
     /// hidden. Null: 1 for all.
     std::function<double(std::size_t landmark)> visibility;
 };
+
+using TPredictedLandmark = TPredictedLandmarkOf<2>;
+using TPredictedLandmark3D = TPredictedLandmarkOf<3>;
+using TAssociationProblem = TAssociationProblemOf<2>;
+using TAssociationProblem3D = TAssociationProblemOf<3>;
 
 }  // namespace salma::association
