@@ -4,6 +4,7 @@
 #include <COutputFolder.h>
 #include <CProgressBar.h>
 #include <runProgram.h>
+#include <salma/simulator/CBankBuilder.h>
 #include <salma/simulator/CSimulator.h>
 
 #include <iomanip>
@@ -38,9 +39,13 @@ std::vector<std::string> namesOf(const std::map<std::string, ENUM>& all) {
 }
 
 void report(const simulator::TSimulationSummary& s, const std::string& out) {
-    std::cout << std::fixed << std::setprecision(1) << "drove " << s.duration
-              << " s: " << s.pictures << " pictures, " << s.scans << " scans, " << s.odometryRecords
-              << " odometry and " << s.panTiltRecords << " pan/tilt records\n"
+    std::cout << std::fixed << std::setprecision(1) << "drove " << s.duration << " s: ";
+    if (s.salientRecords > 0)
+        std::cout << s.salientRecords << " records drawn from the bank, ";
+    else
+        std::cout << s.pictures << " pictures, ";
+    std::cout << s.scans << " scans, " << s.odometryRecords << " odometry and " << s.panTiltRecords
+              << " pan/tilt records\n"
               << std::setprecision(2) << "raw odometry ends " << s.odometryMiss
               << " m from the truth; laser offset " << std::setprecision(1) << s.laserOffset * 1000
               << " mm\n"
@@ -65,6 +70,13 @@ int CSimApp::run(int argc, char** argv) {
     app.add_option("--threads", m_threads, "Threads that render; the result is the same")
         ->check(CLI::Range(1, 256))
         ->capture_default_str();
+    auto* sightings = app.add_option(
+        "--sightings", m_bankFile,
+        "No pictures: what the front end sees is drawn from this bank, which is built if missing");
+    app.add_option("--draws", m_draws, "Renderings of each picture in the bank")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str()
+        ->needs(sightings);
     auto* print =
         app.add_flag("--print-config", m_printConfig, "Print the effective world and end");
     out->excludes(print);
@@ -87,14 +99,35 @@ simulator::TWorld CSimApp::effectiveWorld() const {
     return world;
 }
 
+std::shared_ptr<const simulator::CSightingBank> CSimApp::bank(
+    const simulator::TWorld& world) const {
+    if (m_bankFile.empty()) return nullptr;
+    simulator::TBankOptions options;
+    options.draws = m_draws;
+    options.threads = m_threads;
+    const simulator::CBankBuilder builder(world, options);
+    if (m_seed >= simulator::CBankBuilder::kFirstSeed)
+        throw std::invalid_argument("--seed " + std::to_string(m_seed) + " is one of the bank's: " +
+                                    std::to_string(simulator::CBankBuilder::kFirstSeed) +
+                                    " and above");
+    if (!std::filesystem::exists(m_bankFile)) {
+        CProgressBar bar("bank", builder.pictureCount());
+        simulator::CSightingBank::write(m_bankFile, builder.key(),
+                                        builder.build([&bar] { bar.step(); }));
+    }
+    auto bank = std::make_shared<const simulator::CSightingBank>(m_bankFile);
+    bank->requireKey(builder.key());
+    return bank;
+}
+
 void CSimApp::simulate() const {
     if (m_out.empty())
         throw std::invalid_argument("--out is missing: name a folder for the results");
     cv::setNumThreads(1);  // the threads that render are ours
     const auto world = effectiveWorld();
     COutputFolder out(m_out);
-    simulator::CSimulator simulator(world, {m_seed, m_threads});
-    CProgressBar bar("rendering", simulator.pictureCount());
+    simulator::CSimulator simulator(world, {m_seed, m_threads, bank(world)});
+    CProgressBar bar("rendering", m_bankFile.empty() ? simulator.pictureCount() : 0);
     const auto summary = simulator.run(out.path(), [&bar] { bar.step(); });
     out.publish();
     report(summary, m_out);

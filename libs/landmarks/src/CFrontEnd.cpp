@@ -66,10 +66,12 @@ void addCounts(const TSelection& selection, TFrontEndResult& result) {
 }
 
 /// The centre is the mean of two sides along each axis, each of them a little wrong.
-void addBorderError(const CWallView& wall, double sideSigma, TPatch& patch) {
+void addBorderError(const CWallView& wall,
+                    double sideSigma,
+                    mrpt::poses::CPose3DPDFGaussian& pose) {
     const double variance = sideSigma * sideSigma / 2;
     const Eigen::Vector2d along(std::sin(wall.wall().alpha), -std::cos(wall.wall().alpha));
-    auto& covariance = patch.pose.cov;
+    auto& covariance = pose.cov;
     for (int i = 0; i < 2; ++i)
         for (int j = 0; j < 2; ++j) covariance(i, j) += variance * along[i] * along[j];
     covariance(2, 2) += variance;
@@ -148,6 +150,14 @@ TFrontEndResult CFrontEnd::process(const TView& view) const {
     return result;
 }
 
+mrpt::poses::CPose3DPDFGaussian CFrontEnd::poseOnWall(const CWallView& wall,
+                                                      double u,
+                                                      double v) const {
+    auto pose = m_rectifier.pose(wall, u, v);
+    addBorderError(wall, m_border.options().sideSigma, pose);
+    return pose;
+}
+
 std::optional<TPatch> CFrontEnd::landmarkOf(const TEntity& entity,
                                             const std::vector<CWallView>& walls,
                                             const TView& view,
@@ -166,7 +176,7 @@ std::optional<TPatch> CFrontEnd::landmarkOf(const TEntity& entity,
     auto rectified = m_rectifier.rectify(view.grey, wall, *border);
     if (!rectified.patch) return refuse(appearance::asString(rectified.refusal));
     TPatch& patch = *rectified.patch;
-    addBorderError(wall, m_border.options().sideSigma, patch);
+    addBorderError(wall, m_border.options().sideSigma, patch.pose);
     patch.keypoints = m_descriptor.describe(patch);
     patch.regions = m_secondLook.describe(view.grey, wall, *border);
     if (!appearance::saysEnough(patch, static_cast<std::size_t>(m_options.minKeypoints)))

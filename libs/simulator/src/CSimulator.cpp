@@ -8,16 +8,13 @@
 #include <salma/simulator/CSimulator.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <limits>
-#include <mutex>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
-#include <thread>
 
+#include "inParallel.h"
 #include "seeds.h"
 #include "truthFiles.h"
 
@@ -63,7 +60,8 @@ CSimulator::CSimulator(const TWorld& description, const TSimulationOptions& opti
       m_camera(description.camera),
       m_renderer(m_world, m_camera),
       m_sensor(description.camera, m_camera, options.seed),
-      m_laser(description.laser, m_world, options.seed) {
+      m_laser(description.laser, m_world, options.seed),
+      m_scanTimes(instants(description.laser.rate, 0.37, description.laser.jitter, "scan times")) {
     if (!(m_options.threads >= 1))
         throw std::invalid_argument("threads = " + std::to_string(m_options.threads) +
                                     " is below 1");
@@ -118,26 +116,10 @@ void CSimulator::writePicture(const std::filesystem::path& folder, std::size_t i
 void CSimulator::writePictures(const std::filesystem::path& folder,
                                const std::function<void()>& onPicture) const {
     std::filesystem::create_directories(folder);
-    std::atomic<std::size_t> next{0};
-    std::exception_ptr error;
-    std::mutex errorMutex;
-    const auto work = [&] {
-        try {
-            for (std::size_t i = next++; i < pictureCount(); i = next++) {
-                writePicture(folder, i);
-                if (onPicture) onPicture();
-            }
-        } catch (...) {
-            const std::lock_guard<std::mutex> lock(errorMutex);
-            error = std::current_exception();
-            next = pictureCount();
-        }
-    };
-    std::vector<std::thread> threads;
-    for (int i = 1; i < m_options.threads; ++i) threads.emplace_back(work);
-    work();
-    for (auto& thread : threads) thread.join();
-    if (error) std::rethrow_exception(error);
+    inParallel(pictureCount(), m_options.threads, [&](std::size_t i) {
+        writePicture(folder, i);
+        if (onPicture) onPicture();
+    });
 }
 
 std::vector<TSighting> CSimulator::sightingsInPicture(std::size_t index) const {
@@ -206,15 +188,30 @@ void CSimulator::addPictures(Records& records) const {
 }
 
 void CSimulator::addScans(Records& records, std::vector<TSighting>& sightings) const {
-    const TLaserOptions& laser = m_description.laser;
-    std::uint64_t index = 0;
-    for (const double time : instants(laser.rate, 0.37, laser.jitter, "scan times")) {
-        auto record =
-            mrpt::obs::CObservation2DRangeScan::Create(m_laser.scan(truePose(time), index++));
+    for (std::size_t i = 0; i < m_scanTimes.size(); ++i) {
+        const double time = m_scanTimes[i];
+        auto record = mrpt::obs::CObservation2DRangeScan::Create(scan(i));
         record->timestamp = clockTime(time);
         records.push_back(record);
         for (const auto& s : sightingsInScan(time)) sightings.push_back(s);
     }
+}
+
+mrpt::obs::CObservation2DRangeScan CSimulator::scan(std::size_t index) const {
+    return m_laser.scan(truePose(m_scanTimes.at(index)), index);
+}
+
+CSimulator::Records CSimulator::sightingsFromBank() const {
+    const CBankedFrontEnd frontEnd(m_options.bank, m_options.seed);
+    Records records;
+    for (std::size_t i = 0; i < pictureCount(); ++i) {
+        const auto record = frontEnd.look(*this, i);
+        if (!record) continue;
+        record->sensorLabel = "CAMERA_SALIENT";
+        record->timestamp = clockTime(rounded(pictureTime(i) + m_description.camera.latency));
+        records.push_back(record);
+    }
+    return records;
 }
 
 CSimulator::Records CSimulator::headStates() const {
@@ -259,20 +256,26 @@ TSimulationSummary CSimulator::run(const std::filesystem::path& folder,
     }
     addScans(records, sightings);
     summary.scans = records.size() - summary.odometryRecords;
-    const Records headStates = this->headStates();
-    summary.panTiltRecords = headStates.size();
-    addPictures(records);
-    summary.pictures = pictureCount();
+    Records companion = headStates();
+    summary.panTiltRecords = companion.size();
+    if (m_options.bank) {
+        const Records seen = sightingsFromBank();
+        summary.salientRecords = seen.size();
+        companion.insert(companion.end(), seen.begin(), seen.end());
+    } else {
+        addPictures(records);
+        summary.pictures = pictureCount();
+    }
     for (std::size_t i = 0; i < pictureCount(); ++i)
         for (const auto& s : sightingsInPicture(i)) sightings.push_back(s);
     std::stable_sort(sightings.begin(), sightings.end(),
                      [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
 
-    writePictures(file("_Images"), onPicture);
+    if (!m_options.bank) writePictures(file("_Images"), onPicture);
     writeTrajectory(file(".gt.tum"), truth);
     writeLandmarks(file(".landmarks.csv"), m_world.landmarks());
     writeSightings(file(".sightings.csv"), sightings);
-    writeRawlog(file(".salient.rawlog"), headStates);
+    writeRawlog(file(".salient.rawlog"), std::move(companion));
     writeRawlog(file(".rawlog"), std::move(records));
     summary.duration = m_path.duration();
     summary.laserOffset = m_laser.offset();

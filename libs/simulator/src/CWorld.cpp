@@ -20,6 +20,21 @@ std::vector<TSegment> CWorld::segmentsAt(double height) const {
     return segments;
 }
 
+double CWorld::distanceTo(const Eigen::Vector3d& from, const Eigen::Vector3d& direction) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const auto& f : m_faces) {
+        const Eigen::Vector3d normal = f.normal();
+        const double towards = normal.dot(direction);
+        if (std::abs(towards) < 1e-12) continue;
+        const double distance = normal.dot(f.origin - from) / towards;
+        if (!(distance > 0 && distance < nearest)) continue;
+        const Eigen::Vector3d hit = from + distance * direction - f.origin;
+        const double u = hit.dot(f.right), v = hit.dot(f.up);
+        if (u >= f.u0 && u <= f.u1 && v >= f.v0 && v <= f.v1) nearest = distance;
+    }
+    return nearest;
+}
+
 bool CWorld::visible(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
     constexpr double endMargin = 1e-4;  // the points may lie on faces [m]
     const Eigen::Vector3d ray = b - a;

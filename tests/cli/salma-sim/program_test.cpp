@@ -54,6 +54,37 @@ TEST(SalmaSim, WritesALogThatCanBeReadAndItsTruth) {
     EXPECT_FALSE(fs::is_empty(out / "tiny_Images"));
 }
 
+TEST(SalmaSim, DrawsSightingsFromABankThatItBuildsOnce) {
+    const CTemporaryFolder folder;
+    const auto world = folder.write("tiny.ini", kRoom);
+    const auto bank = (folder / "tiny.bank").string();
+    const auto run = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> all{
+            world, "--out", (folder / "out").string(), "--sightings", bank, "--draws", "1"};
+        all.insert(all.end(), more.begin(), more.end());
+        return sim(all);
+    };
+    const std::vector<std::string> fixed{"--camera", "fixed:20", "--picture-size", "640x480"};
+    auto result = run(fixed);
+    ASSERT_EQ(result.exitCode, 0) << result.output;
+    EXPECT_NE(result.output.find("drawn from the bank"), std::string::npos) << result.output;
+    observations::registerClasses();
+    const auto log = observations::readLog((folder / "out/tiny.rawlog").string());
+    EXPECT_EQ(log.counts.count("salma::observations::CObservationSalientLandmarks"), 1u);
+    EXPECT_EQ(log.counts.count("mrpt::obs::CObservationImage"), 0u);
+
+    const auto built = test::readFile(bank);
+    result = run({"--camera", "fixed:20", "--picture-size", "640x480", "--seed", "2"});
+    EXPECT_EQ(result.exitCode, 0) << result.output;
+    EXPECT_TRUE(test::readFile(bank) == built);
+    expectOneLineError(run({"--camera", "fixed:30"}), "tiny.bank: is a bank of something else");
+    expectOneLineError(run({"--camera", "attend"}), "'attend'");
+    expectOneLineError(run({"--seed", "1000001"}), "is one of the bank's");
+    folder.write("tiny.bank", built.substr(0, built.size() / 2));
+    expectOneLineError(run(fixed), "tiny.bank: breaks off");
+    EXPECT_EQ(sim({world, "--out", "x", "--draws", "2"}).exitCode, 2);
+}
+
 TEST(SalmaSim, PrintsTheEffectiveWorldWithItsFlags) {
     const CTemporaryFolder folder;
     const auto result =

@@ -68,6 +68,12 @@ class CFrontEnd {
     /// \throw std::invalid_argument if the picture is not CV_8UC1 or not of the camera's size.
     TFrontEndResult process(const TView& view) const;
 
+    /// Pose in the robot frame of a landmark whose centre lies at (u, v) of the wall, as process()
+    /// states it: place and covariance by laser, camera and border. The point must be visible.
+    mrpt::poses::CPose3DPDFGaussian poseOnWall(const appearance::CWallView& wall,
+                                               double u,
+                                               double v) const;
+
     const TFrontEndOptions& options() const { return m_options; }
 
  private:

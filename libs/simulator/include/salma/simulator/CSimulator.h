@@ -3,6 +3,7 @@
 
 #include <mrpt/obs/CObservation.h>
 #include <salma/observations/CObservationPanTilt.h>
+#include <salma/simulator/CBankedFrontEnd.h>
 #include <salma/simulator/CHeadPlan.h>
 #include <salma/simulator/CImageSensor.h>
 #include <salma/simulator/CLaserModel.h>
@@ -17,6 +18,8 @@ namespace salma::simulator {
 struct TSimulationOptions {
     std::uint32_t seed{1};
     int threads{1};  //!< That render pictures; the result does not depend on it.
+    /// If set, nothing is rendered: records of what the front end would see are drawn from it.
+    std::shared_ptr<const CSightingBank> bank{};
 };
 
 /// A landmark seen at one instant; a row of NAME.sightings.csv.
@@ -32,8 +35,9 @@ struct TSighting {
 struct TSimulationSummary {
     double duration{0};  //!< [s]
     std::size_t pictures{0}, scans{0}, odometryRecords{0}, panTiltRecords{0};
-    double odometryMiss{0};  //!< Distance of the raw odometry's end from the true end [m].
-    double laserOffset{0};   //!< Systematic error of the run's ranges [m].
+    std::size_t salientRecords{0};  //!< Drawn from a bank.
+    double odometryMiss{0};         //!< Distance of the raw odometry's end from the true end [m].
+    double laserOffset{0};          //!< Systematic error of the run's ranges [m].
 };
 
 /** Drives a robot through a world and writes what its sensors record, and the truth.
@@ -47,8 +51,9 @@ class CSimulator {
 
     /** Writes NAME.rawlog, NAME_Images/, NAME.gt.tum, NAME.landmarks.csv and NAME.sightings.csv to
      * `folder`, which exists. Pan/tilt records go to the companion NAME.salient.rawlog, since stock
-     * programs cannot read a log past the first of them. \param onPicture Called after each
-     * picture, from several threads. \throw std::runtime_error if a file cannot be written. */
+     * programs cannot read a log past the first of them. With a bank, CObservationSalientLandmarks
+     * go there too, and there are no pictures. \param onPicture Called after each picture, from
+     * several threads. \throw std::runtime_error if a file cannot be written. */
     TSimulationSummary run(const std::filesystem::path& folder,
                            const std::function<void()>& onPicture = {});
 
@@ -57,6 +62,21 @@ class CSimulator {
 
     /// T_w_c, optical frame.
     mrpt::poses::CPose3D cameraPose(double time) const;
+
+    /// T_r_c, optical frame.
+    mrpt::poses::CPose3D cameraOnRobot(double time) const { return headState(time).cameraPose(); }
+
+    /// Pan of the head, left is positive [rad].
+    double pan(double time) const { return m_head.pan(time); }
+
+    /// When picture `index` is taken [s after the start].
+    double pictureTime(std::size_t index) const;
+
+    /// When scans are taken [s after the start], increasing.
+    const std::vector<double>& scanTimes() const { return m_scanTimes; }
+
+    /// The scan taken at scanTimes()[index], without stamp.
+    mrpt::obs::CObservation2DRangeScan scan(std::size_t index) const;
 
     /// The picture taken at pictureTimes()[index], 8-bit BGR.
     cv::Mat picture(std::size_t index) const;
@@ -71,7 +91,6 @@ class CSimulator {
     using Records = std::vector<mrpt::obs::CObservation::Ptr>;
 
     observations::CObservationPanTilt headState(double time) const;
-    double pictureTime(std::size_t index) const;
     std::string pictureName(std::size_t index) const;
     std::vector<double> instants(double rate,
                                  double phase,
@@ -79,6 +98,7 @@ class CSimulator {
                                  const char* purpose) const;
     std::vector<TSighting> sightingsInScan(double time) const;
     void addPictures(Records& records) const;
+    Records sightingsFromBank() const;
     void addScans(Records& records, std::vector<TSighting>& sightings) const;
     Records headStates() const;
     void addOdometry(Records& records, TSimulationSummary& summary) const;
@@ -95,6 +115,7 @@ class CSimulator {
     CRenderer m_renderer;
     CImageSensor m_sensor;
     CLaserModel m_laser;
+    std::vector<double> m_scanTimes;
 };
 
 }  // namespace salma::simulator

@@ -72,6 +72,10 @@ class CWorld {
     /// Posters first, then the corners at the laser's height; ids count from 1.
     const std::vector<TTrueLandmark>& landmarks() const { return m_landmarks; }
 
+    /// Distance from `from` along the unit vector `direction` to the nearest face [m]; infinity if
+    /// nothing is there.
+    double distanceTo(const Eigen::Vector3d& from, const Eigen::Vector3d& direction) const;
+
     /// True if no face lies between the two points (those at the very ends do not count).
     bool visible(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
 
