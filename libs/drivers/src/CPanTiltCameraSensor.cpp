@@ -3,10 +3,11 @@
 #include <salma/drivers/CPanTiltCameraSensor.h>
 #include <salma/drivers/CViscaCamera.h>
 
-#include <algorithm>
 #include <chrono>
 #include <stdexcept>
 #include <string>
+
+#include "grabberText.h"
 
 IMPLEMENTS_GENERIC_SENSOR(CPanTiltCameraSensor, salma::drivers)
 
@@ -21,13 +22,6 @@ constexpr double historyLength = 10;  // seconds; a picture does not wait that l
 double steadyNow() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
         .count();
-}
-
-/// MRPT's catch blocks take a text apart at brackets, which would turn the message round.
-std::string withoutBrackets(std::string text) {
-    std::replace(text.begin(), text.end(), '[', '(');
-    std::replace(text.begin(), text.end(), ']', ')');
-    return text;
 }
 
 CPose3D poseOf(const TPanTiltCameraOptions::TMount& mount) {

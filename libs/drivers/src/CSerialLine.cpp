@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <fcntl.h>
 #include <mrpt/comms/CSerialPort.h>
 #include <poll.h>
 #include <salma/drivers/CSerialLine.h>
-#include <sys/file.h>
 #include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
@@ -11,55 +9,15 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
-#include <cstring>
+
+#include "CPortLock.h"
 
 namespace salma::drivers {
 namespace {
 
 constexpr int writeTimeoutMs = 1000;  // a packet of 16 bytes takes 17 ms at 9600 baud
 
-/// Why a port could not be opened, from errno.
-std::string cause(int error) {
-    switch (error) {
-        case ENOENT:
-        case ENXIO:
-        case ENODEV:
-            return "no such serial port, or nothing is plugged in";
-        case EACCES:
-        case EPERM:
-            return "no permission; the user must be in the group that owns it (often dialout)";
-        case EBUSY:
-        case EWOULDBLOCK:
-            return "is in use by another program";
-        default:
-            return std::strerror(error);
-    }
-}
-
 }  // namespace
-
-/// Holds the port for this program: a lock that picocom and others ask for as well.
-class CSerialLine::CLock {
- public:
-    explicit CLock(const std::string& port)
-        : m_handle(::open(port.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)) {
-        if (m_handle < 0) throw CPortError(port + ": " + cause(errno));
-        std::string problem;
-        if (isatty(m_handle) == 0)
-            problem = "is not a serial port";
-        else if (flock(m_handle, LOCK_EX | LOCK_NB) != 0)
-            problem = cause(errno);
-        if (problem.empty()) return;
-        ::close(m_handle);
-        throw CPortError(port + ": " + problem);
-    }
-    ~CLock() { ::close(m_handle); }
-    CLock(const CLock&) = delete;
-    CLock& operator=(const CLock&) = delete;
-
- private:
-    int m_handle;
-};
 
 class CSerialLine::CPort : public mrpt::comms::CSerialPort {
  public:
@@ -82,8 +40,8 @@ class CSerialLine::CPort : public mrpt::comms::CSerialPort {
 };
 
 CSerialLine::CSerialLine(const std::string& port, int baud)
-    : m_port(port.compare(0, 1, "/") == 0 ? port : "/dev/" + port),
-      m_lock(std::make_unique<CLock>(m_port)),
+    : m_port(absolutePort(port)),
+      m_lock(std::make_unique<CPortLock>(m_port)),
       m_serial(std::make_unique<CPort>(m_port)) {
     try {
         m_serial->open();

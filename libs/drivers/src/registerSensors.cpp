@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <salma/drivers/CLms200.h>
 #include <salma/drivers/CPanTiltCameraSensor.h>
 #include <salma/drivers/registerSensors.h>
 
 namespace salma::drivers {
 
-void registerSensors() { CPanTiltCameraSensor::doRegister(); }
+void registerSensors() {
+    CLms200::doRegister();
+    CPanTiltCameraSensor::doRegister();
+}
 
 }  // namespace salma::drivers

@@ -42,8 +42,9 @@ void CEmulator::run() {
             m_toDevice.put(m_terminal.read(0), now(), baud);
             const TBytes heard = m_toDevice.take(now());
             if (!heard.empty()) m_device.receive(heard, baud, now());
-            m_toComputer.put(m_device.transmit(now()), now(), baud);
-            m_terminal.write(m_toComputer.take(now()));
+            const int rate = m_device.baud() > 0 ? m_device.baud() : baud;
+            m_toComputer.put(m_device.transmit(now()), now(), rate);
+            m_terminal.write(m_toComputer.take(now(), baud));
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }

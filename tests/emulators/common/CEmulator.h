@@ -21,6 +21,8 @@ class CEmulatedDevice {
     virtual void receive(const TBytes& bytes, int baud, double now) = 0;
     /// What the device has to say by now.
     virtual TBytes transmit(double now) = 0;
+    /// Rate that it transmits with; 0: that of the computer's end.
+    virtual int baud() const { return 0; }
 };
 
 /// Runs a device at the end of a cable, in a thread of its own, until destroyed. Bytes take the

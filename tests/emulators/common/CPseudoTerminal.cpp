@@ -17,7 +17,8 @@ CPseudoTerminal::CPseudoTerminal(std::string link) : m_link(std::move(link)) { p
 
 void CPseudoTerminal::plug() {
     unplug();
-    m_device = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+    // A real line does not wait for who does not listen either.
+    m_device = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
     std::array<char, 128> name{};
     if (m_device < 0 || grantpt(m_device) != 0 || unlockpt(m_device) != 0 ||
         ptsname_r(m_device, name.data(), name.size()) != 0)

@@ -25,6 +25,7 @@ class CPseudoTerminal {
 
     /// Bytes that the computer sent; waits for the first at most `timeoutMs`.
     TBytes read(int timeoutMs);
+    /// What does not fit into the terminal because nobody reads is lost.
     void write(const TBytes& bytes);
 
     /// Rate that the computer's end is set to; 0 for one that no device here knows.

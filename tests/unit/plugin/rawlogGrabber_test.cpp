@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// MRPT's rawlog-grabber, as it is installed, with the plug-in and an emulated camera.
+// MRPT's rawlog-grabber, as it is installed, with the plug-in and emulated devices.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <mrpt/core/bits_math.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CRawlog.h>
 #include <salma/drivers/CViscaCamera.h>
 #include <salma/observations/CLogReader.h>
@@ -17,6 +18,7 @@
 
 #include "CEviD30.h"
 #include "CProcess.h"
+#include "CSickLms200.h"
 #include "CTemporaryFolder.h"
 #include "stockProgram.h"
 
@@ -42,11 +44,16 @@ class RawlogGrabber : public testing::Test {
     std::string port() const { return (m_folder / "camera").string(); }
 
     void grab(const std::string& cameraSection) {
+        grabSections(
+            "[HEAD]\ndriver = CPanTiltCameraSensor\nprocess_rate = 50\nsensorLabel = "
+            "HEAD\n" +
+            cameraSection);
+    }
+
+    void grabSections(const std::string& sections) {
         const std::string ini = m_folder.write(
             "grab.ini", "[global]\nrawlog_prefix = " + (m_folder / "log").string() +
-                            "\nGRABBER_PERIOD_MS = 20\ntime_between_launches = 0\n[HEAD]\ndriver = "
-                            "CPanTiltCameraSensor\nprocess_rate = 50\nsensorLabel = HEAD\n" +
-                            cameraSection);
+                            "\nGRABBER_PERIOD_MS = 20\ntime_between_launches = 0\n" + sections);
         auto command = test::stockProgram("sh");
         const std::string line =
             "exec rawlog-grabber -p " SALMA_PLUGIN " " + ini + " < " + (m_folder / "keys").string();
@@ -81,15 +88,15 @@ class RawlogGrabber : public testing::Test {
     }
 
     /// What is in it, in its order.
-    std::vector<CObservationPanTilt::Ptr> records() const {
+    template <class RECORD = CObservationPanTilt>
+    std::vector<std::shared_ptr<RECORD>> records() const {
         observations::registerClasses();
         mrpt::obs::CRawlog log;
         EXPECT_TRUE(log.loadFromRawLogFile(logFile()));
-        std::vector<CObservationPanTilt::Ptr> states;
+        std::vector<std::shared_ptr<RECORD>> all;
         for (std::size_t i = 0; i < log.size(); ++i)
-            states.push_back(
-                std::dynamic_pointer_cast<CObservationPanTilt>(log.getAsObservation(i)));
-        return states;
+            all.push_back(std::dynamic_pointer_cast<RECORD>(log.getAsObservation(i)));
+        return all;
     }
 
     test::CTemporaryFolder m_folder;
@@ -172,4 +179,60 @@ TEST_F(RawlogGrabber, SaysWhichKeyIsWrong) {
     EXPECT_LT(result.exitCode, 128) << result.output;
     EXPECT_TRUE(contains(result.output, "(HEAD) has unknown keys: pan_counts_per_degree"))
         << result.output;
+}
+
+TEST_F(RawlogGrabber, WritesTheScansOfALaserAndGoesOnAfterTheCableWasOut) {
+    test::CSickLms200 device(
+        [](const test::TLmsView& view, double) { return std::vector<double>(view.beams(), 2); });
+    test::CEmulator emulator(device, port());
+    grabSections(
+        "[LASER]\ndriver = CLms200\nprocess_rate = 90\nsensorLabel = LASER\n"
+        "COM_port_LIN = " +
+        port() + "\nCOM_baudRate = 500000\nFOV = 100\nresolution = 100\n" + "reconnect_s = 0.05\n");
+    const auto waitForScans = [&](int n) {
+        const auto streamed = [&] {
+            int scans = 0;
+            emulator.locked([&] { scans = device.scans(); });
+            return scans;
+        };
+        for (const int until = streamed() + n; streamed() < until;)
+            if (m_grabber.wait_for(std::chrono::milliseconds(5)) == std::future_status::ready)
+                return false;
+        return true;
+    };
+    const bool before = waitForScans(50);
+    const double out = test::CEmulator::now();
+    emulator.unplug();
+    emulator.locked([&] { device.sleep(false); });  // without power as well
+    emulator.plug();
+    const bool after = waitForScans(100);
+    const auto result = end();
+    ASSERT_TRUE(before && after) << result.output;
+    EXPECT_EQ(result.exitCode, 0) << result.output;
+    EXPECT_TRUE(contains(result.output, "laser lost: " + port())) << result.output;
+    EXPECT_TRUE(contains(result.output, "laser found again at " + port())) << result.output;
+    int earlier = 0, later = 0;
+    for (const auto& scan : records<mrpt::obs::CObservation2DRangeScan>()) {
+        ASSERT_TRUE(scan);
+        ASSERT_EQ(scan->getScanSize(), 101U);
+        EXPECT_NEAR(RAD2DEG(scan->aperture), 100, 1e-4);
+        EXPECT_NEAR(scan->getScanRange(50), 2, 1e-6);
+        ++(mrpt::Clock::toDouble(scan->timestamp) < out ? earlier : later);
+    }
+    EXPECT_GE(earlier, 20);
+    EXPECT_GE(later, 20);
+}
+
+TEST_F(RawlogGrabber, SaysWhichLaserIsNotThere) {
+    grabSections("[LASER]\ndriver = CLms200\nprocess_rate = 90\nCOM_port_LIN = /dev/no-such\n");
+    const auto result = m_grabber.get();
+    EXPECT_LT(result.exitCode, 128) << result.output;
+    EXPECT_TRUE(contains(result.output, "/dev/no-such: no such serial port")) << result.output;
+}
+
+TEST_F(RawlogGrabber, SaysWhichDriverItDoesNotKnow) {
+    grabSections("[LASER]\ndriver = CLms300\nprocess_rate = 90\n");
+    const auto result = m_grabber.get();
+    EXPECT_LT(result.exitCode, 128) << result.output;
+    EXPECT_TRUE(contains(result.output, "Class name not recognized: CLms300")) << result.output;
 }

@@ -15,6 +15,8 @@ class CPortError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+class CPortLock;
+
 /** A serial port (8 bits, no parity, one stop bit, no flow control) that one program uses alone.
  *
  * MRPT's CSerialPort with what it lacks: errors that name the port and the cause, a lock, waiting
@@ -41,11 +43,10 @@ class CSerialLine {
     const std::string& port() const { return m_port; }
 
  private:
-    class CLock;
     class CPort;
 
     std::string m_port;  //!< Absolute path.
-    std::unique_ptr<CLock> m_lock;
+    std::unique_ptr<CPortLock> m_lock;
     std::unique_ptr<CPort> m_serial;
 };
 
