@@ -6,18 +6,18 @@
 #include <iostream>
 
 namespace salma::apps {
-namespace {
 
-/// The message of an exception in one line: MRPT's own carry it between a title and a call stack.
 std::string oneLine(const std::string& text) {
     const std::string title = "==== MRPT exception ====", label = "Message:";
     std::size_t from = 0;
-    if (text.compare(0, title.size(), title) == 0 && text.find(label) != std::string::npos)
-        from = text.find_first_not_of(" \n", text.find(label) + label.size());
+    if (text.compare(0, title.size(), title) == 0) {
+        const std::size_t at = text.find(label);
+        from = text.find_first_not_of(" \n",
+                                      at == std::string::npos ? title.size() : at + label.size());
+    }
+    if (from == std::string::npos) return text;
     return text.substr(from, text.find('\n', from) - from);
 }
-
-}  // namespace
 
 int runProgram(CLI::App& app,
                const std::string& examples,

@@ -20,4 +20,7 @@ int runProgram(CLI::App& app,
                char** argv,
                const std::function<void()>& body);
 
+/// The message of an exception in one line: MRPT's own carry it between a title and a call stack.
+std::string oneLine(const std::string& text);
+
 }  // namespace salma::apps

@@ -19,10 +19,20 @@ namespace salma::observations {
  * before anything is read from it, and a read beyond the end throws. */
 class CLogArchive : public mrpt::serialization::CArchive {
  public:
-    /// \throw std::runtime_error "FILE: ..." if it is missing, unreadable, empty or damaged.
-    explicit CLogArchive(const std::string& file);
+    /** \param acceptDamage Take a damaged place for the end, where damage() says what is wrong.
+     * \throw std::runtime_error "FILE: ..." if it is missing, unreadable, empty or damaged. */
+    explicit CLogArchive(const std::string& file, bool acceptDamage = false);
 
     bool atEnd() const { return m_position == m_size; }
+    std::uint64_t position() const { return m_position; }  //!< In what is unpacked.
+    std::uint64_t size() const { return m_size; }          //!< Unpacked.
+    /// What zlib says of the damaged place at which the file is taken to end; "" for none.
+    const std::string& damage() const { return m_damage; }
+    /// Bytes of the file from the damaged place on.
+    std::uint64_t packedBytesLost() const { return m_packedBytesLost; }
+
+    /// Bytes as they are, without the checks that objects undergo. \throw as read() does.
+    void readBytes(void* data, std::size_t bytes);
 
     /// The gzip stream has no end.
     bool truncated() const { return m_truncated; }
@@ -46,10 +56,12 @@ class CLogArchive : public mrpt::serialization::CArchive {
     std::size_t write(const void* data, std::size_t bytes) override;
 
  private:
-    /// Unpacks the whole file and drops the bytes. Sets m_size, m_truncated and m_head.
+    /// Unpacks the whole file and drops the bytes. Sets m_size, m_truncated, m_damage and m_head.
     void inspect();
-    /// Follows the headers of objects that pass by.
-    void notice(const std::uint8_t* data, std::size_t bytes);
+    /// Counts the bytes between m_size and a damaged place, which zlib gives one by one only.
+    void countUpToDamage();
+    /// Follows the headers of objects that pass by, `bytes` of them from position `at`.
+    void notice(std::uint64_t at, const std::uint8_t* data, std::size_t bytes);
 
     struct TClose {
         void operator()(gzFile_s* file) const { gzclose_r(file); }
@@ -58,6 +70,9 @@ class CLogArchive : public mrpt::serialization::CArchive {
     TGzip open() const;
 
     std::string m_file;
+    bool m_acceptDamage;
+    std::string m_damage;
+    std::uint64_t m_packedBytesLost{0};
     TGzip m_stream;
     std::string m_head;  //!< First bytes of the content.
     std::uint64_t m_size{0};

@@ -10,8 +10,6 @@
 #include <new>
 #include <stdexcept>
 
-#include "CLogArchive.h"
-
 using mrpt::obs::CObservation;
 using mrpt::serialization::CSerializable;
 
@@ -30,8 +28,8 @@ std::string seconds(double time) {
 
 /// Where a log stands when it cannot be read on.
 std::string place(const TRawObjects& read) {
-    if (read.objects.empty()) return "in its first record";
-    return "after " + std::to_string(read.objects.size()) + " whole records, last good time " +
+    if (read.count == 0) return "in its first record";
+    return "after " + std::to_string(read.count) + " whole records, last good time " +
            seconds(read.lastGoodTime);
 }
 
@@ -69,10 +67,12 @@ void store(const std::string& file, const CSerializable::Ptr& object, TRawObject
                        (object ? object->GetRuntimeClass()->className : "an empty record") + " " +
                        place(read));
     read.objects.push_back(object);
+    ++read.count;
     noteTime(object, read);
 }
 
-/// False where the log breaks off in the object that comes now.
+}  // namespace
+
 bool readNext(CLogArchive& in, TRawObjects& read) {
     CSerializable::Ptr object;
     try {
@@ -87,8 +87,6 @@ bool readNext(CLogArchive& in, TRawObjects& read) {
     store(in.getArchiveDescription(), object, read);
     return true;
 }
-
-}  // namespace
 
 std::optional<double> timeOf(const CObservation& observation) {
     if (observation.timestamp == INVALID_TIMESTAMP) return std::nullopt;

@@ -5,10 +5,18 @@
 #include <salma/observations/registerClasses.h>
 
 namespace salma::observations {
+namespace {
+
+/// A plug-in that was loaded before may have brought the class along.
+void registerOnce(const mrpt::rtti::TRuntimeClassId* id) {
+    if (mrpt::rtti::findRegisteredClass(id->className) == nullptr) mrpt::rtti::registerClass(id);
+}
+
+}  // namespace
 
 void registerClasses() {
-    mrpt::rtti::registerClass(CLASS_ID(CObservationSalientLandmarks));
-    mrpt::rtti::registerClass(CLASS_ID(CObservationPanTilt));
+    registerOnce(CLASS_ID(CObservationSalientLandmarks));
+    registerOnce(CLASS_ID(CObservationPanTilt));
 }
 
 }  // namespace salma::observations
