@@ -42,6 +42,13 @@ COutputFolder::~COutputFolder() {
     fs::remove_all(m_staging, ignored);
 }
 
+void COutputFolder::write(const std::string& name, const std::string& content) const {
+    std::ofstream out(m_staging / name, std::ios::binary);
+    out << content;
+    out.close();
+    if (!out) fail(m_target / name, "cannot be written");
+}
+
 void COutputFolder::publish() {
     std::error_code error;
     const fs::path old = m_staging.string() + ".old";

@@ -24,6 +24,9 @@ class COutputFolder {
     const std::filesystem::path& path() const { return m_staging; }
     std::filesystem::path operator/(const std::string& name) const { return m_staging / name; }
 
+    /// Writes a file. \throw std::runtime_error naming it if that cannot be done.
+    void write(const std::string& name, const std::string& content) const;
+
     /// Replaces `target` by what was written. \throw std::runtime_error
     void publish();
 

@@ -1,57 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CEvalApp.h"
 
-#include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <map>
 #include <stdexcept>
 
-#include "CAssociationScore.h"
 #include "COutputFolder.h"
+#include "addPositive.h"
 #include "reports.h"
+#include "runScore.h"
 
 namespace salma::apps {
 namespace {
 
 using association::ELandmarkKind;
 
-void writeFile(const std::filesystem::path& file, const std::string& text) {
-    std::ofstream out(file, std::ios::binary);
-    out << text;
-    out.close();
-    if (!out) throw std::runtime_error(file.string() + ": cannot be written");
-}
-
-CLI::Option* addPositive(CLI::App& command,
-                         const std::string& flag,
-                         double& value,
-                         const std::string& meaning) {
-    return command.add_option(flag, value, meaning)
-        ->check([](const std::string& text) {
-            double parsed = 0;
-            const bool good =
-                CLI::detail::lexical_cast(text, parsed) && parsed > 0 && std::isfinite(parsed);
-            return good ? std::string() : "must be a number in (0, inf), not " + text;
-        })
-        ->capture_default_str();
-}
-
-std::size_t countKind(const TTruth& truth, ELandmarkKind kind) {
-    return static_cast<std::size_t>(std::count_if(truth.landmarks.begin(), truth.landmarks.end(),
-                                                  [&](const auto& l) { return l.kind == kind; }));
-}
-
 }  // namespace
 
-CEvalApp::CEvalApp(CLI::App& app) {
+CEvalApp::CEvalApp(CLI::App& app) : m_monteCarlo(app) {
     app.add_flag("--print-config", m_printConfig, "print the limits that would be used, and stop");
     app.require_subcommand(0, 1);
     addTrajectory(app);
     addAssociations(app);
     app.callback([this, &app] {
         if (!m_printConfig && app.get_subcommands().empty())
-            throw CLI::RequiredError("A subcommand, trajectory or associations,");
+            throw CLI::RequiredError("A subcommand, trajectory, associations or montecarlo,");
     });
 }
 
@@ -97,6 +69,8 @@ void CEvalApp::run(std::ostream& out) {
         out << m_score.asIni("trajectory") << "\n" << m_matcher.asIni("associations");
     else if (m_trajectory->parsed())
         runTrajectory(out);
+    else if (m_monteCarlo.isChosen())
+        m_monteCarlo.run(out);
     else
         runAssociations(out);
 }
@@ -114,15 +88,11 @@ void CEvalApp::runAssociations(std::ostream& out) const {
     const auto rows =
         readAssociations((std::filesystem::path(m_second) / "associations.csv").string());
     const CTruthMatcher matcher(m_matcher, truth);
-    std::map<ELandmarkKind, CAssociationScore> scores;
-    for (const auto& row : rows) scores[row.kind].add(row, matcher.match(row));
+    auto figures = associationFigures(rows, truth, matcher);
     TAssociationReport report;
     report.truthName = truth.name;
-    report.salient =
-        scores[ELandmarkKind::salient].figures(countKind(truth, ELandmarkKind::salient));
-    if (matcher.knowsCorners())
-        report.corners =
-            scores[ELandmarkKind::corner].figures(countKind(truth, ELandmarkKind::corner));
+    report.salient = figures[ELandmarkKind::salient];
+    if (matcher.knowsCorners()) report.corners = figures[ELandmarkKind::corner];
     finish(out, "associations.json", associationTable(report), associationJson(report));
 }
 
@@ -132,7 +102,7 @@ void CEvalApp::finish(std::ostream& out,
                       const std::string& json) const {
     if (!m_out.empty()) {
         COutputFolder folder(m_out);
-        writeFile(folder / name, json);
+        folder.write(name, json);
         folder.publishInto();
     }
     out << (m_json ? json : table);

@@ -7,6 +7,7 @@
 #include <ostream>
 #include <string>
 
+#include "CMonteCarloCommand.h"
 #include "CTruthMatcher.h"
 
 namespace salma::apps {
@@ -36,6 +37,7 @@ class CEvalApp {
                 const std::string& table,
                 const std::string& json) const;
 
+    CMonteCarloCommand m_monteCarlo;
     CLI::App* m_trajectory{nullptr};
     CLI::App* m_associations{nullptr};
     viz::TScoreOptions m_score;

@@ -6,7 +6,9 @@
 #include "runProgram.h"
 
 int main(int argc, char** argv) {
-    CLI::App app("Scores trajectories and data association against the truth.", "salma-eval");
+    CLI::App app(
+        "Scores trajectories and data association against the truth, of one run or of many.",
+        "salma-eval");
     salma::apps::CEvalApp evaluation(app);
     return salma::apps::runProgram(
         app,
