@@ -81,11 +81,17 @@ CMonteCarlo::CMonteCarlo(const TStudy& study)
     std::map<std::string, std::string> names;
     for (const auto& file : study.worlds) {
         m_worlds.emplace_back(file, m_config);
-        m_worldHashes.push_back(m_worlds.back().hash());
         const auto [other, isNew] = names.emplace(m_worlds.back().name(), file);
         if (!isNew)
             throw std::invalid_argument(other->second + " and " + file +
                                         ": results of both would be named " + other->first);
+    }
+}
+
+void CMonteCarlo::prepare() {
+    for (auto& world : m_worlds) {
+        if (!m_study.banks.empty()) world.useBank(m_study.banks, static_cast<int>(m_study.jobs));
+        m_worldHashes.push_back(world.hash());
     }
 }
 

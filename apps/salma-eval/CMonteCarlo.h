@@ -20,6 +20,7 @@ namespace salma::apps {
 struct TStudy {
     std::string config;               //!< An ini file of salma-slam.
     std::vector<std::string> worlds;  //!< World files, with different names.
+    std::string banks;                //!< Folder of their banks of sightings; "": render.
     std::vector<std::string> noise;   //!< As noiseNames() has them; so below.
     std::vector<std::string> backends, methods;
     std::uint32_t firstSeed{1}, seeds{50};
@@ -39,6 +40,11 @@ class CMonteCarlo {
  public:
     /// Reads configuration and worlds. \throw std::exception naming file, section, key and value
     explicit CMonteCarlo(const TStudy& study);
+    CMonteCarlo(const CMonteCarlo&) = delete;
+    CMonteCarlo& operator=(const CMonteCarlo&) = delete;
+
+    /// Makes the banks that are missing; call it before all else. \throw std::exception
+    void prepare();
 
     /** Makes the runs that `file` has no result of.
      * \param onRun Called for each run made. */

@@ -114,6 +114,9 @@ void CMonteCarloCommand::addOptions() {
     command.add_option("--worlds", m_study.worlds, "world files of salma-sim, with commas between")
         ->delimiter(',')
         ->required();
+    command.add_option("--banks", m_study.banks,
+                       "take sightings from the banks in this folder, which are made if missing; "
+                       "else the pictures of each drive are rendered");
     addNames(command, "--noise", m_study.noise, noiseNames())->capture_default_str();
     addNames(command, "--backends", m_study.backends, backendNames())->capture_default_str();
     addNames(command, "--methods", m_study.methods, methodNames())->capture_default_str();
@@ -142,8 +145,9 @@ void CMonteCarloCommand::run(std::ostream& out) {
     rejectTwice("--methods", m_study.methods);
     const fs::path folder(m_out);
     m_study.folder = folder / "logs";
-    const CMonteCarlo study(m_study);
+    CMonteCarlo study(m_study);
     COutputFolder(folder).publishInto();  // a bad place is found before the work
+    study.prepare();
     CResultFile file(folder / "results.jsonl");
     if (const std::size_t outdated = study.outdated(file); outdated > 0)
         std::cerr << "notice: " << outdated

@@ -271,7 +271,7 @@ TSimulationSummary CSimulator::run(const std::filesystem::path& folder,
     std::stable_sort(sightings.begin(), sightings.end(),
                      [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
 
-    if (!m_options.bank) writePictures(file("_Images"), onPicture);
+    if (!m_options.bank && m_options.pictures) writePictures(file("_Images"), onPicture);
     writeTrajectory(file(".gt.tum"), truth);
     writeLandmarks(file(".landmarks.csv"), m_world.landmarks());
     writeSightings(file(".sightings.csv"), sightings);

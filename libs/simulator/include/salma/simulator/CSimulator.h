@@ -20,6 +20,7 @@ struct TSimulationOptions {
     int threads{1};  //!< That render pictures; the result does not depend on it.
     /// If set, nothing is rendered: records of what the front end would see are drawn from it.
     std::shared_ptr<const CSightingBank> bank{};
+    bool pictures{true};  //!< False: the log names pictures that are not drawn.
 };
 
 /// A landmark seen at one instant; a row of NAME.sightings.csv.
