@@ -3,6 +3,7 @@
 
 #include <mrpt/core/bits_math.h>
 #include <salma/config/CStrictFile.h>
+#include <salma/observations/readCamera.h>
 
 #include <array>
 #include <cmath>
@@ -110,7 +111,7 @@ CPose3D CLaserCameraCommand::laserPose() const {
 
 CLaserCameraCommand::TRun CLaserCameraCommand::calibrate() const {
     TRun run;
-    run.camera = readCamera(m_camera);
+    run.camera = observations::readCamera(m_camera);
     auto scans = calibration::readScans(m_scans, m_firstScan, m_board.images.size());
     run.seen = m_board.find();
     if (run.seen.size.width != static_cast<int>(run.camera.ncols) ||

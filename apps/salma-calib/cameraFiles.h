@@ -14,10 +14,6 @@ std::string cameraSection(const mrpt::img::TCamera& camera);
 /// The same camera as YAML in the layout of ROS, which mrpt::img::TCamera::FromYAML reads too.
 std::string cameraYaml(const mrpt::img::TCamera& camera, const std::string& name);
 
-/** The camera of a section [CAMERA_PARAMS], read strictly.
- * \throw std::invalid_argument naming file, key and value. */
-mrpt::img::TCamera readCamera(const std::string& file);
-
 /// A section `label` as rawlog-grabber and rawlog-edit --sensors-pose read it: pose_x ... pose_roll
 /// of the sensor on the robot [m, deg].
 std::string sensorSection(const std::string& label, const mrpt::poses::CPose3D& T_r_s);

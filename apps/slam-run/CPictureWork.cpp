@@ -8,23 +8,17 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "CProgressBar.h"
 #include "parallelFor.h"
 
 namespace salma::apps {
 
+using landmarks::TJoinedPicture;
 using mrpt::obs::CObservation2DRangeScan;
 using mrpt::obs::CObservationImage;
 using observations::CObservationSalientLandmarks;
-
-/// A picture with all that it is joined with.
-struct CPictureWork::TJob {
-    CObservationImage::Ptr picture;
-    CObservation2DRangeScan::Ptr scan;
-    mrpt::poses::CPose2D T_picture_scan;  //!< Robot at the scan's time, seen from the picture's.
-    mrpt::poses::CPose3D T_r_c;
-};
 
 namespace {
 
@@ -66,18 +60,14 @@ CObservation2DRangeScan::Ptr nearestScan(const observations::TLog& log,
 }  // namespace
 
 CPictureWork::CPictureWork(const TSlamConfig& config, const observations::TLog& log)
-    : m_config(config),
-      m_log(log),
-      m_frontEnd(config.seeing),
-      m_lines(config.lines),
-      m_placeString(config.placeString) {}
+    : m_config(config), m_log(log), m_recorder({config.lines, config.placeString, config.seeing}) {}
 
-std::vector<CPictureWork::TJob> CPictureWork::jobs(TSeen& seen) const {
+std::vector<TJoinedPicture> CPictureWork::jobs(TSeen& seen) const {
     const auto recorded = recordedStamps(m_log);
-    std::vector<TJob> result;
+    std::vector<TJoinedPicture> result;
     for (std::size_t i = 0; i < m_log.steps.size(); ++i)
         for (const auto& o : m_log.steps[i].observations) {
-            TJob job;
+            TJoinedPicture job;
             job.picture = std::dynamic_pointer_cast<CObservationImage>(o);
             if (!job.picture) continue;
             ++seen.pictures;
@@ -93,51 +83,21 @@ std::vector<CPictureWork::TJob> CPictureWork::jobs(TSeen& seen) const {
     return result;
 }
 
-/// Finds scan, motion and camera pose for the picture of `job`; false, counted, without them.
-bool CPictureWork::join(TJob& job, TSeen& seen) const {
+/// Finds motion and camera pose for the picture of `job`; false, counted, without them.
+bool CPictureWork::join(TJoinedPicture& job, TSeen& seen) const {
     const auto& options = m_config.seeing.frontEnd;
     const double time = stampOf(*job.picture) - options.latencyCamera;
-    const double skew = job.scan ? std::abs(stampOf(*job.scan) - time) : 0;
-    if (!job.scan || !(m_log.actionFormat || skew <= options.maxSkew)) {
-        ++seen.withoutScan;
-        return false;
+    switch (joinPicture(
+        job, {m_log.odometry, m_log.panTilt, time, options.maxSkew, m_log.actionFormat})) {
+        case landmarks::EJoin::joined:
+            return true;
+        case landmarks::EJoin::noScan:
+            ++seen.withoutScan;
+            break;
+        case landmarks::EJoin::noHeadPose:
+            ++seen.withoutHeadPose;
     }
-    if (!m_log.odometry.empty()) {
-        const auto atPicture = m_log.odometry.at(time, options.maxSkew);
-        const auto atScan = m_log.odometry.at(stampOf(*job.scan), options.maxSkew);
-        if (atPicture && atScan) job.T_picture_scan = *atScan - *atPicture;
-    }
-    job.T_r_c = job.picture->cameraPose;
-    if (!m_log.panTilt.empty()) {
-        const auto pose = m_log.panTilt.cameraPose(time, options.maxSkew);
-        if (!pose) ++seen.withoutHeadPose;
-        if (!pose) return false;
-        job.T_r_c = *pose;
-    }
-    return true;
-}
-
-CObservationSalientLandmarks::Ptr CPictureWork::look(const TJob& job,
-                                                     landmarks::TFrontEndResult& result) const {
-    landmarks::TView view;
-    view.grey = observations::loadGrey(*job.picture, m_log.imagesFolder);
-    view.camera = job.picture->cameraParams;
-    view.T_r_c = job.T_r_c;
-    const laser::TLineResult lines = m_lines.extract(*job.scan);
-    for (const auto& line : lines.lines)
-        view.walls.push_back(laser::transformed(line, job.T_picture_scan));
-    result = m_frontEnd.process(view);
-
-    auto record = CObservationSalientLandmarks::Create();
-    record->sensorLabel = job.picture->sensorLabel + "_SALIENT";
-    record->timestamp = job.picture->timestamp;
-    record->cameraPose = view.T_r_c;
-    record->camera = view.camera;
-    if (job.picture->image.isExternallyStored())
-        record->pictureFile = job.picture->image.getExternalStorageFile();
-    record->placeString = m_placeString.describe(*job.scan, lines);
-    record->landmarks = result.landmarks;
-    return record;
+    return false;
 }
 
 TSeen CPictureWork::run() const {
@@ -147,7 +107,9 @@ TSeen CPictureWork::run() const {
     std::vector<landmarks::TFrontEndResult> results(all.size());
     CProgressBar progress("pictures", all.size());
     parallelFor(all.size(), m_config.run.threads, [&](std::size_t i) {
-        seen.records[i] = look(all[i], results[i]);
+        auto recorded = m_recorder.record(all[i], m_log.imagesFolder);
+        seen.records[i] = recorded.record;
+        results[i] = std::move(recorded.result);
         progress.step();
     });
     for (const auto& result : results) {

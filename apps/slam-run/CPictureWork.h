@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <salma/landmarks/CFrontEnd.h>
-#include <salma/laser/CLineExtractor.h>
+#include <salma/landmarks/CLandmarkRecorder.h>
 #include <salma/observations/CLogReader.h>
 
 #include <cstddef>
@@ -41,17 +40,12 @@ class CPictureWork {
     TSeen run() const;
 
  private:
-    struct TJob;
-    std::vector<TJob> jobs(TSeen& seen) const;
-    bool join(TJob& job, TSeen& seen) const;
-    observations::CObservationSalientLandmarks::Ptr look(const TJob& job,
-                                                         landmarks::TFrontEndResult& result) const;
+    std::vector<landmarks::TJoinedPicture> jobs(TSeen& seen) const;
+    bool join(landmarks::TJoinedPicture& job, TSeen& seen) const;
 
     const TSlamConfig& m_config;
     const observations::TLog& m_log;
-    landmarks::CFrontEnd m_frontEnd;
-    laser::CLineExtractor m_lines;
-    laser::CPlaceString m_placeString;
+    landmarks::CLandmarkRecorder m_recorder;
 };
 
 }  // namespace salma::apps

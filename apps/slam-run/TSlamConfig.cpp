@@ -2,6 +2,7 @@
 #include "TSlamConfig.h"
 
 #include <salma/config/CStrictFile.h>
+#include <salma/landmarks/forEachSeeingSection.h>
 
 #include <vector>
 
@@ -16,17 +17,7 @@ void forEachSection(CONFIG& c, VISITOR visitor) {
     visitor("corners", c.corners);
     visitor("wall_odometry", c.wallOdometry);
     visitor("place_string", c.placeString);
-    visitor("front_end", c.seeing.frontEnd);
-    visitor("saliency", c.seeing.saliency);
-    visitor("clustering", c.seeing.clustering);
-    visitor("mser", c.seeing.mser);
-    visitor("quad", c.seeing.quad);
-    visitor("selection", c.seeing.selection);
-    visitor("border", c.seeing.border);
-    visitor("rectification", c.seeing.rectification);
-    visitor("second_look", c.seeing.secondLook);
-    visitor("texture", c.seeing.texture);
-    visitor("descriptor", c.seeing.descriptor);
+    landmarks::forEachSeeingSection(c.seeing, visitor);
     visitor("matcher", c.matcher);
     visitor("region_matcher", c.regionMatcher);
     visitor("association", c.association);

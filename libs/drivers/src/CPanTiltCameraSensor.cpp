@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <mrpt/core/Clock.h>
+#include <salma/config/withoutBrackets.h>
 #include <salma/drivers/CPanTiltCameraSensor.h>
 #include <salma/drivers/CViscaCamera.h>
 
@@ -43,7 +44,7 @@ void CPanTiltCameraSensor::loadConfig_sensorSpecific(const mrpt::config::CConfig
     try {
         m_options.loadFromConfigFile(file, section);
     } catch (const std::invalid_argument& error) {
-        throw std::invalid_argument(withoutBrackets(error.what()));
+        throw std::invalid_argument(config::withoutBrackets(error.what()));
     }
 }
 

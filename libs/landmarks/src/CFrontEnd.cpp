@@ -42,6 +42,18 @@ bool isFinite(const mrpt::poses::CPose3D& T) {
     return std::isfinite(T.x() + T.y() + T.z() + T.yaw() + T.pitch() + T.roll());
 }
 
+void requireSize(const TView& view) {
+    const int cols = static_cast<int>(view.camera.ncols),
+              rows = static_cast<int>(view.camera.nrows);
+    const auto size = [](int width, int height) {
+        return std::to_string(width) + "x" + std::to_string(height);
+    };
+    if (view.grey.cols != cols || view.grey.rows != rows)
+        throw std::invalid_argument("front end: the picture has " +
+                                    size(view.grey.cols, view.grey.rows) + " pixels, its camera " +
+                                    size(cols, rows));
+}
+
 /// The walls as the picture shows them, without those that are no number.
 std::vector<CWallView> wallViews(const TView& view, TFrontEndResult& result) {
     std::vector<CWallView> walls;
@@ -124,6 +136,7 @@ CFrontEnd::CFrontEnd(const TSeeingOptions& options)
 TFrontEndResult CFrontEnd::process(const TView& view) const {
     if (view.grey.type() != CV_8UC1)
         throw std::invalid_argument("front end: the picture is not 8-bit grey");
+    requireSize(view);
     TFrontEndResult result;
     if (!isFinite(view.T_r_c)) {
         ++result.refused["picture from an unknown pose"];

@@ -2,6 +2,8 @@
 #include <mrpt/math/wrap2pi.h>
 #include <salma/observations/CPoseHistory.h>
 
+#include <algorithm>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -34,6 +36,14 @@ std::optional<CPose2D> CPoseHistory::at(double time, double maxSkew) const {
     const double turn = mrpt::math::wrapToPi(b.phi() - a.phi());
     return CPose2D(a.x() + place->part * (b.x() - a.x()), a.y() + place->part * (b.y() - a.y()),
                    mrpt::math::wrapToPi(a.phi() + place->part * turn));
+}
+
+void CPoseHistory::forgetBefore(double time) {
+    const auto later = std::upper_bound(m_times.begin(), m_times.end(), time);
+    if (later == m_times.begin()) return;
+    const auto count = std::prev(later) - m_times.begin();
+    m_times.erase(m_times.begin(), m_times.begin() + count);
+    m_poses.erase(m_poses.begin(), m_poses.begin() + count);
 }
 
 }  // namespace salma::observations

@@ -19,6 +19,9 @@ class CPoseHistory {
      * before its first or after its last stamp; within that, the end pose is held. */
     std::optional<mrpt::poses::CPose2D> at(double time, double maxSkew) const;
 
+    /// Drops what is older than `time` [s], but for the last such pose: `time` itself stays known.
+    void forgetBefore(double time);
+
     bool empty() const { return m_times.empty(); }
 
  private:
