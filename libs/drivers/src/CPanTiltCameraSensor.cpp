@@ -88,7 +88,32 @@ void CPanTiltCameraSensor::lost(const std::string& problem) {
     m_problem = problem;
 }
 
+void CPanTiltCameraSensor::pointTo(double pan, double tilt, double speed) {
+    const TViscaOptions& camera = m_options.camera;
+    if (!(pan >= camera.panMin && pan <= camera.panMax && tilt >= camera.tiltMin &&
+          tilt <= camera.tiltMax && speed > 0 && speed <= camera.panMaxSpeed))
+        throw std::invalid_argument("the head cannot turn there, or not so fast");
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    m_goal = TGoal{pan, tilt, speed};
+}
+
+void CPanTiltCameraSensor::move() {
+    std::optional<TGoal> goal;
+    {
+        const std::lock_guard<std::mutex> lock(m_mutex);
+        goal.swap(m_goal);
+    }
+    if (!goal) return;
+    try {
+        m_camera->moveTo(goal->pan, goal->tilt, goal->speed);
+    } catch (const CViscaError& error) {  // where it stands is known all the same
+        if (m_refusal != error.what()) MRPT_LOG_WARN_STREAM("not turned: " << error.what());
+        m_refusal = error.what();
+    }
+}
+
 void CPanTiltCameraSensor::record() {
+    move();
     const TPanTiltSample sample = m_camera->panTilt();
     if (m_recordsUntilZoom == 0) {
         m_zoom = m_camera->zoom();

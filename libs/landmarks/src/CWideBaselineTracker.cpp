@@ -17,6 +17,18 @@ double viewAngle(const TSighting& s) {
 
 }  // namespace
 
+bool isSamePlace(const TSighting& a, const TSighting& b, const TTrackingOptions& options) {
+    if (a.convex != b.convex || std::isnan(a.wallAngle) != std::isnan(b.wallAngle)) return false;
+    const Eigen::Vector2d apart = a.position - b.position;
+    if (std::isnan(b.wallAngle)) return apart.norm() <= options.across;
+    const double turn = mrpt::math::wrapToPi(a.wallAngle - b.wallAngle);
+    const Eigen::Vector2d normal(std::cos(b.wallAngle), std::sin(b.wallAngle));
+    const double across = std::abs(normal.dot(apart));
+    const double along = std::abs(normal.x() * apart.y() - normal.y() * apart.x());
+    return std::abs(turn) <= options.wallAngle && across <= options.across &&
+           along <= options.along;
+}
+
 void TTrackingOptions::visit(config::COptionVisitor& v) {
     v.integer("min_views", minViews, config::between(1, 100),
               "places from which an entity must be seen before it becomes a landmark");
@@ -53,7 +65,7 @@ bool CWideBaselineTracker::confirms(const TSighting& sighting) {
     TEntity* nearest = nullptr;
     double distance = std::numeric_limits<double>::infinity();
     for (auto& entity : m_entities) {
-        if (entity.lastStep == m_step || !continues(sighting, entity)) continue;
+        if (entity.lastStep == m_step || !isSamePlace(sighting, entity.last, m_options)) continue;
         const double apart = (entity.last.position - sighting.position).norm();
         if (!(apart < distance) || !lookAlike(sighting, entity)) continue;
         distance = apart;
@@ -64,21 +76,6 @@ bool CWideBaselineTracker::confirms(const TSighting& sighting) {
     if (!isConfirmed(*nearest)) return false;
     m_entities.erase(m_entities.begin() + (nearest - m_entities.data()));
     return true;
-}
-
-bool CWideBaselineTracker::continues(const TSighting& sighting, const TEntity& entity) const {
-    const TSighting& last = entity.last;
-    if (last.convex != sighting.convex ||
-        std::isnan(last.wallAngle) != std::isnan(sighting.wallAngle))
-        return false;
-    const Eigen::Vector2d apart = sighting.position - last.position;
-    if (std::isnan(last.wallAngle)) return apart.norm() <= m_options.across;
-    const double turn = mrpt::math::wrapToPi(sighting.wallAngle - last.wallAngle);
-    const Eigen::Vector2d normal(std::cos(last.wallAngle), std::sin(last.wallAngle));
-    const double across = std::abs(normal.dot(apart));
-    const double along = std::abs(normal.x() * apart.y() - normal.y() * apart.x());
-    return std::abs(turn) <= m_options.wallAngle && across <= m_options.across &&
-           along <= m_options.along;
 }
 
 /// With the view from the nearest direction; what has no appearance is not told apart by it.
@@ -98,10 +95,10 @@ void CWideBaselineTracker::add(const TSighting& sighting, TEntity& entity) const
     entity.lastStep = m_step;
     entity.last = sighting;
     // The first view of a place stays: one that followed the robot would never be far from it.
-    const auto isSamePlace = [&](const TSighting& view) {
+    const auto fromSamePlace = [&](const TSighting& view) {
         return (view.robot - sighting.robot).norm() < m_options.minTravel;
     };
-    if (std::none_of(entity.views.begin(), entity.views.end(), isSamePlace))
+    if (std::none_of(entity.views.begin(), entity.views.end(), fromSamePlace))
         entity.views.push_back(sighting);
 }
 

@@ -2,6 +2,7 @@
 #include <mrpt/core/Clock.h>
 #include <salma/sensing/CJoinQueue.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -63,28 +64,33 @@ void CJoinQueue::add(const mrpt::obs::CObservationImage::Ptr& picture, double ar
 void CJoinQueue::add(const CObservation2DRangeScan::Ptr& scan) {
     goesOn(m_newestScan, *scan, 0);
     m_scans.push_back(scan);
-    while (m_scans.size() > kMostScans || stampOf(*m_scans.front()) < *m_newestScan - kHistory)
-        m_scans.pop_front();
+    if (m_scans.size() > kMostScans) m_scans.pop_front();
 }
 
 void CJoinQueue::add(const observations::CObservationPanTilt::Ptr& state) {
     goesOn(m_newestHead, *state, 0);
+    m_lastHead = state;
     m_head.add(state);
-    m_head.forgetBefore(*m_newestHead - kHistory);
 }
 
 void CJoinQueue::add(const mrpt::obs::CObservationOdometry::Ptr& odometry) {
     goesOn(m_newestOdometry, *odometry, 0);
     m_robot = odometry->odometry;
     m_odometry.add(*m_newestOdometry, *m_robot);
-    m_odometry.forgetBefore(*m_newestOdometry - kHistory);
 }
 
 bool CJoinQueue::isReady(const TWaiting& waiting, double now) const {
-    const auto reaches = [&](const Newest& newest) { return newest && *newest >= waiting.time; };
-    const bool known = reaches(m_newestScan) && (!m_options.hasHead || reaches(m_newestHead)) &&
-                       (!m_options.hasOdometry || reaches(m_newestOdometry));
-    return known || !(now - waiting.arrival < m_options.wait);
+    return isKnown(waiting.time) || !(now - waiting.arrival < m_options.wait);
+}
+
+/// All that a picture of that `time` is joined with has come.
+bool CJoinQueue::isKnown(double time) const {
+    const auto reaches = [](const Newest& newest, double t) { return newest && *newest >= t; };
+    if (!reaches(m_newestScan, time)) return false;
+    if (m_options.hasHead && !reaches(m_newestHead, time)) return false;
+    // The motion goes on to the scan, which may be the younger of the two.
+    const double end = std::max(time, stampOf(*nearestScan(time)));
+    return !m_options.hasOdometry || reaches(m_newestOdometry, end);
 }
 
 CObservation2DRangeScan::Ptr CJoinQueue::nearestScan(double time) const {
@@ -114,7 +120,21 @@ std::vector<TDecidedPicture> CJoinQueue::take(double now) {
         out.push_back(decide(m_waiting.front()));
         m_waiting.pop_front();
     }
+    forget();
     return out;
+}
+
+/// What is older than all pictures that may come or that wait.
+void CJoinQueue::forget() {
+    const auto before = [&](const Newest& newest) {
+        double time = *newest;
+        for (const auto& waiting : m_waiting) time = std::min(time, waiting.time);
+        return time - kHistory;
+    };
+    if (m_newestHead) m_head.forgetBefore(before(m_newestHead));
+    if (m_newestOdometry) m_odometry.forgetBefore(before(m_newestOdometry));
+    while (!m_scans.empty() && stampOf(*m_scans.front()) < before(m_newestScan))
+        m_scans.pop_front();
 }
 
 }  // namespace salma::sensing

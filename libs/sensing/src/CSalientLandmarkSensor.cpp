@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <salma/config/withoutBrackets.h>
+#include <salma/drivers/CPanTiltCameraSensor.h>
 #include <salma/observations/readCamera.h>
 #include <salma/sensing/CSalientLandmarkSensor.h>
 
@@ -15,6 +16,7 @@ using mrpt::obs::CObservation;
 using mrpt::obs::CObservation2DRangeScan;
 using mrpt::obs::CObservationImage;
 using mrpt::obs::CObservationOdometry;
+using mrpt::poses::CPose2D;
 using observations::CObservationPanTilt;
 
 constexpr auto kBusy = "front end busy";
@@ -80,6 +82,28 @@ void CSalientLandmarkSensor::load(const mrpt::config::CConfigFileBase& file,
         m_sources.push_back(std::make_unique<CSourceSensor>(file, name));
     // Made here already, so that options out of range are told before a device is opened.
     landmarks::CLandmarkRecorder{m_config.recorder};
+    m_attention.reset();
+    if (m_options.attention.use) createAttention();
+}
+
+void CSalientLandmarkSensor::createAttention() {
+    for (auto& source : m_sources)
+        if (source->section() == m_options.head)
+            m_head = dynamic_cast<drivers::CPanTiltCameraSensor*>(&source->sensor());
+    if (m_head == nullptr)
+        throw std::invalid_argument("attend needs a head that can be turned: section (" +
+                                    m_options.head + ") with driver = CPanTiltCameraSensor");
+    const auto& camera = m_head->options().camera;
+    if (!(m_options.attention.speed <= camera.panMaxSpeed))
+        throw std::invalid_argument("attend_speed_deg is more than the head can do");
+    const auto matcher =
+        std::make_shared<const appearance::CPatchMatcher>(m_config.matcher, m_config.regionMatcher);
+    m_attention.emplace(m_options.attention,
+                        TGazeLimits{camera.panMin, camera.panMax, camera.tiltMin, camera.tiltMax},
+                        m_config.tracking,
+                        [matcher](const observations::TPatch& a, const observations::TPatch& b) {
+                            return matcher->match(a, b).logLikelihoodRatio;
+                        });
 }
 
 void CSalientLandmarkSensor::initialize() {
@@ -100,6 +124,7 @@ void CSalientLandmarkSensor::doProcess() {
     collect();
     handOver();
     handOn();
+    if (m_attention) lookAround();
     if (m_options.report > 0 && steadyNow() >= m_nextReport) {
         report("so far");
         m_nextReport = steadyNow() + m_options.report;
@@ -163,7 +188,17 @@ void CSalientLandmarkSensor::handOn() {
         ++m_counts.records;
         m_counts.landmarks += record->landmarks.size();
         appendObservation(record);
+        if (m_attention)
+            m_attention->see(*record, worked.picture.T_o_r.value_or(CPose2D()), steadyNow());
     }
+}
+
+/// Turns the head to what is to be seen again.
+void CSalientLandmarkSensor::lookAround() {
+    if (!m_queue->head()) return;
+    const auto gaze =
+        m_attention->gaze(m_queue->robot().value_or(CPose2D()), *m_queue->head(), steadyNow());
+    if (gaze) m_head->pointTo(gaze->pan, gaze->tilt, m_options.attention.speed);
 }
 
 /// \param detail Told once; no more than a few different ones are.
@@ -186,6 +221,9 @@ void CSalientLandmarkSensor::report(const std::string& when) {
                                            << " records with " << m_counts.landmarks
                                            << " landmarks, " << dropped << " pictures dropped"
                                            << reasons);
+    if (m_attention)
+        MRPT_LOG_INFO_STREAM("looked at until confirmed: " << m_attention->confirmed()
+                                                           << ", let go: " << m_attention->letGo());
     for (const auto& source : m_sources)
         if (source->lost() > 0)
             MRPT_LOG_WARN_STREAM(source->lost() << " observations of " << source->section()

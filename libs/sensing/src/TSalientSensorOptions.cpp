@@ -27,6 +27,7 @@ void TSalientSensorOptions::visit(config::COptionVisitor& v) {
              "longest wait for the scan, head pose and odometry of a picture");
     v.number("report_s", report, config::atLeast(0),
              "between two lines on what was dropped; 0: at the end only");
+    attention.visit(v);
 }
 
 void TSalientSensorOptions::validate() const {
@@ -36,6 +37,8 @@ void TSalientSensorOptions::validate() const {
                                     TSalientSensorOptions().driver);
     if (camera.empty()) throw std::invalid_argument("camera names no section");
     if (laser.empty()) throw std::invalid_argument("laser names no section");
+    attention.validate();
+    if (attention.use && head.empty()) throw std::invalid_argument("attend needs a head");
 }
 
 }  // namespace salma::sensing

@@ -117,6 +117,41 @@ TEST_F(PanTiltSensor, GivesPicturesThePoseOfTheirOwnStamp) {
     EXPECT_TRUE(m_sensor.stamp(picture, 2));
 }
 
+TEST_F(PanTiltSensor, TurnsWhereItIsToldToWhileItMakesRecords) {
+    load();
+    m_sensor.initialize();
+    EXPECT_THROW(m_sensor.pointTo(DEG2RAD(101.0), 0, 1), std::invalid_argument);
+    EXPECT_THROW(m_sensor.pointTo(0, DEG2RAD(-26.0), 1), std::invalid_argument);
+    EXPECT_THROW(m_sensor.pointTo(0, 0, 0), std::invalid_argument);
+    EXPECT_THROW(m_sensor.pointTo(std::nan(""), 0, 1), std::invalid_argument);
+    m_sensor.pointTo(DEG2RAD(-40.0), 0, 1);  // forgotten for the next
+    m_sensor.pointTo(DEG2RAD(12.0), DEG2RAD(6.0), DEG2RAD(80.0));
+    CObservationPanTilt::Ptr last;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    while (std::chrono::steady_clock::now() < end) {
+        m_sensor.doProcess();
+        for (const auto& state : take()) last = state;
+        ASSERT_TRUE(last);
+        EXPECT_GT(RAD2DEG(last->pan), -0.1);
+        if (RAD2DEG(last->pan) > 11.95 && RAD2DEG(last->tilt) > 5.95) break;
+    }
+    EXPECT_NEAR(RAD2DEG(last->pan), 12, 0.1);
+    EXPECT_NEAR(RAD2DEG(last->tilt), 6, 0.1);
+    EXPECT_EQ(motions(), 1);
+}
+
+TEST_F(PanTiltSensor, GoesOnWithItsRecordsWhenTheCameraRefusesToTurn) {
+    load();
+    m_sensor.setMinLoggingLevel(mrpt::system::LVL_ERROR);
+    m_sensor.initialize();
+    m_sensor.pointTo(DEG2RAD(12.0), 0, 1);
+    misbehave({test::EFault::notExecutable});
+    m_sensor.doProcess();
+    EXPECT_EQ(take().size(), 1U);
+    EXPECT_EQ(m_sensor.getState(), mrpt::hwdrivers::CGenericSensor::ssWorking);
+    EXPECT_NEAR(truePan(), 0, 1e-9);
+}
+
 TEST_F(PanTiltSensor, IsKnownToMrptByItsName) {
     drivers::registerSensors();
     const auto sensor = mrpt::hwdrivers::CGenericSensor::createSensorPtr("CPanTiltCameraSensor");

@@ -60,3 +60,20 @@ TEST(CPoseHistory, RefusesDecreasingStampsAndNan) {
     EXPECT_THROW(history.add(0.5, CPose2D()), std::invalid_argument);
     EXPECT_FALSE(history.empty());
 }
+
+TEST(CPoseHistory, ForgetsWhatIsOldButKnowsTheTimeItWasAskedToKeep) {
+    CPoseHistory history;
+    for (int i = 0; i < 10; ++i) history.add(i, CPose2D(i, 0, 0));
+    history.forgetBefore(4.5);
+    EXPECT_FALSE(history.at(3.9, 0));
+    EXPECT_DOUBLE_EQ(history.at(4, 0)->x(), 4);
+    EXPECT_DOUBLE_EQ(history.at(4.5, 0)->x(), 4.5);
+    history.forgetBefore(5);
+    EXPECT_FALSE(history.at(4.9, 0));
+    EXPECT_DOUBLE_EQ(history.at(5, 0)->x(), 5);
+    history.forgetBefore(-1);
+    EXPECT_DOUBLE_EQ(history.at(9, 0)->x(), 9);
+    history.forgetBefore(100);
+    EXPECT_DOUBLE_EQ(history.at(9, 0)->x(), 9) << "the last pose stays";
+    CPoseHistory().forgetBefore(1);
+}

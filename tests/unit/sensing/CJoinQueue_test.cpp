@@ -57,6 +57,19 @@ TEST(CJoinQueue, JoinsAPictureWithTheNearestScanAndThePosesOfItsTime) {
     EXPECT_NEAR(queue.robot()->x(), 2, 1e-12);
 }
 
+TEST(CJoinQueue, WaitsForTheOdometryOfALaterScan) {
+    CJoinQueue queue({false, true, 0.25, 0, 5});
+    queue.add(odometry(100.0, 0));
+    queue.add(at<CObservationImage>(100.04), 0);
+    queue.add(odometry(100.05, 1));
+    queue.add(at<CObservation2DRangeScan>(100.1));
+    EXPECT_TRUE(queue.take(0).empty());
+    queue.add(odometry(100.15, 3));
+    const auto taken = queue.take(0);
+    ASSERT_EQ(taken.size(), 1u);
+    EXPECT_NEAR(taken[0].job.T_picture_scan.x(), 2 - 0.8, 1e-4);
+}
+
 TEST(CJoinQueue, TakesTheLatencyOfTheCameraOff) {
     CJoinQueue queue({false, false, 0.25, 0.1, 5});
     for (const double time : {100.0, 100.1, 100.2}) queue.add(at<CObservation2DRangeScan>(time));
@@ -122,6 +135,23 @@ TEST(CJoinQueue, ForgivesPicturesThatComeALittleOutOfOrder) {
     EXPECT_EQ(taken[1].fate, EFate::joined);
     queue.add(at<CObservationImage>(90), 0);
     EXPECT_EQ(queue.jumps(), 1u);
+}
+
+TEST(CJoinQueue, JoinsWhatComesInOneHeapAfterAStall) {
+    CJoinQueue queue({true, true, 0.25, 0, 5});
+    for (int i = 0; i < 400; ++i) {  // 40 s
+        queue.add(at<CObservation2DRangeScan>(100 + 0.1 * i));
+        queue.add(head(100 + 0.1 * i, 0.01 * i));
+        queue.add(odometry(100 + 0.1 * i, i));
+    }
+    for (int i = 0; i < 4; ++i) queue.add(at<CObservationImage>(101.04 + 10 * i), 7);
+    const auto taken = queue.take(7);
+    ASSERT_EQ(taken.size(), 4u);
+    for (std::size_t i = 0; i < 4; ++i) {
+        const double k = static_cast<double>(i);
+        EXPECT_NEAR(timeOf(*taken[i].job.scan), 101 + 10 * k, 1e-6);
+        EXPECT_NEAR(taken[i].T_o_r->x(), 10.4 + 100 * k, 1e-4);
+    }
 }
 
 TEST(CJoinQueue, GivesEveryPictureOnceAndNeverHoldsMany) {

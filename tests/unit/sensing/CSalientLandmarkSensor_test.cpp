@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
+#include <mrpt/config/CConfigFile.h>
 #include <mrpt/config/CConfigFileMemory.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/obs/CObservationImage.h>
@@ -125,10 +126,10 @@ std::string bytesOf(const CObservationSalientLandmarks& record) {
 TEST_F(SalientSensor, WritesTheRecordsThatSalmaSlamMakesOfTheSameLog) {
     // Three times as fast as it was, and patient, so that a busy machine joins the same.
     load(std::string(kRoles) + "wait_s = 5\nthreads = 2\n", allSources("speed = 3\n"));
-    m_sensor.initialize();
     const auto log = observations::readLog(simulatedLog());
     const apps::TSlamConfig config;
     auto offLine = apps::CPictureWork(config, log).run();
+    m_sensor.initialize();
     ASSERT_EQ(offLine.pictures, 15u);
     runUntil([&] { return settled() == offLine.pictures; });
     const auto records = seen<CObservationSalientLandmarks>();
@@ -212,6 +213,11 @@ TEST_F(SalientSensor, ItsSectionsAreReadStrictly) {
                          "section (L) has driver = 'CNo', which is not known"));
     EXPECT_TRUE(contains(complaint("camera = CAMERA\nlaser = LASER\nconfig = no.ini\n", both),
                          "no.ini: no such file"));
+    EXPECT_TRUE(contains(complaint("camera = CAMERA\nlaser = LASER\nattend = true\n", both),
+                         "attend needs a head"));
+    EXPECT_TRUE(contains(complaint("camera = CAMERA\nlaser = LASER\nattend = true\nhead = HEAD\n",
+                                   both + source("HEAD")),
+                         "section (HEAD) with driver = CPanTiltCameraSensor"));
     const test::CTemporaryFolder folder;
     const auto ini = folder.write("my.ini", "[front_ent]\n");
     EXPECT_TRUE(contains(complaint("camera = CAMERA\nlaser = LASER\nconfig = " + ini + "\n", both),
@@ -219,6 +225,23 @@ TEST_F(SalientSensor, ItsSectionsAreReadStrictly) {
     EXPECT_TRUE(
         contains(complaint("camera = CAMERA\nlaser = LASER\ncamera_params = " + ini + "\n", both),
                  "has no section (CAMERA_PARAMS)"));
+}
+
+TEST_F(SalientSensor, TheShippedSectionsCanBeRead) {
+    drivers::registerSensors();
+    std::string ini = test::readFile(SALMA_SOURCE_DIR "/share/grabber/salient-landmarks.ini");
+    const test::CTemporaryFolder folder;
+    const std::string name = "= camera.ini";
+    ASSERT_NE(ini.find(name), std::string::npos);
+    ini.replace(ini.find(name), name.size(),
+                "= " + folder.write("camera.ini",
+                                    "[CAMERA_PARAMS]\nresolution = [640 480]\ncx = 320\ncy = "
+                                    "240\nfx = 700\nfy = 700\n"));
+    EXPECT_EQ(messageOf([&] {
+                  m_sensor.loadConfig(mrpt::config::CConfigFile(folder.write("grabber.ini", ini)),
+                                      "SALIENT");
+              }),
+              "");
 }
 
 TEST_F(SalientSensor, IsKnownToMrptByItsName) {

@@ -21,7 +21,7 @@ class CViscaCamera;
  * Records are stamped half way between question and answer. A camera that does not answer when the
  * program starts is an error; one that is lost later (cable, power) is told once, looked for every
  * `reconnect_s`, and goes on when it is back: no record stands for the time between.
- * `cameraPose()` and `stamp()` may be called from any thread. */
+ * `cameraPose()`, `stamp()` and `pointTo()` may be called from any thread. */
 class CPanTiltCameraSensor : public mrpt::system::COutputLogger,
                              public mrpt::hwdrivers::CGenericSensor {
     DEFINE_GENERIC_SENSOR(CPanTiltCameraSensor)
@@ -42,6 +42,11 @@ class CPanTiltCameraSensor : public mrpt::system::COutputLogger,
     /// Gives `picture` the pose at its own stamp. False, and unchanged, if that is not known.
     bool stamp(mrpt::obs::CObservation& picture, double maxSkew) const;
 
+    /** Turns the head, with the next record; of several wishes before that the last counts. A
+     * camera that refuses is told once, and goes on making records. \param speed [rad/s] \throw
+     * std::invalid_argument outside the limits of options() */
+    void pointTo(double pan, double tilt, double speed);
+
     const TPanTiltCameraOptions& options() const { return m_options; }
 
  protected:
@@ -54,6 +59,7 @@ class CPanTiltCameraSensor : public mrpt::system::COutputLogger,
     void reconnect();
     void lost(const std::string& problem);
     void record();
+    void move();
     void remember(const observations::CObservationPanTilt::Ptr& state);
 
     TPanTiltCameraOptions m_options;
@@ -62,8 +68,13 @@ class CPanTiltCameraSensor : public mrpt::system::COutputLogger,
     std::string m_problem;                   //!< That was said last; each is said once.
     int m_recordsUntilZoom{0};
     double m_zoom{1};
-    mutable std::mutex m_mutex;  //!< Of m_history.
+    struct TGoal {
+        double pan{0}, tilt{0}, speed{0};
+    };
+    std::string m_refusal;       //!< Of a motion, that was said last.
+    mutable std::mutex m_mutex;  //!< Of what follows.
     observations::CPanTiltHistory m_history;
+    std::optional<TGoal> m_goal;
 };
 
 }  // namespace salma::drivers

@@ -38,6 +38,10 @@ struct TSighting {
     std::shared_ptr<const observations::TPatch> patch;  //!< Null: without appearance.
 };
 
+/// True if both may show one thing: the same wall and place along it, or for things without a wall
+/// the same place.
+bool isSamePlace(const TSighting& a, const TSighting& b, const TTrackingOptions& options);
+
 /** Entities that wait to be seen from elsewhere before the map takes them.
  *
  * What is seen once may be a reflection, a passer-by or a wrong border. A sighting continues the
@@ -71,7 +75,6 @@ class CWideBaselineTracker {
         TSighting last;
         int lastStep{0};
     };
-    bool continues(const TSighting& sighting, const TEntity& entity) const;
     bool lookAlike(const TSighting& sighting, const TEntity& entity) const;
     void add(const TSighting& sighting, TEntity& entity) const;
     bool isConfirmed(const TEntity& entity) const;

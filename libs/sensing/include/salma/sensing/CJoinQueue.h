@@ -55,6 +55,8 @@ class CJoinQueue {
 
     /// The last known pose of the robot by odometry.
     std::optional<mrpt::poses::CPose2D> robot() const { return m_robot; }
+    /// The last known state of the head; null before the first.
+    const observations::CObservationPanTilt::Ptr& head() const { return m_lastHead; }
     /// Times that a clock went back.
     std::size_t jumps() const { return m_jumps; }
 
@@ -69,9 +71,11 @@ class CJoinQueue {
 
     bool goesOn(Newest& newest, const mrpt::obs::CObservation& observation, double tolerance);
     bool isReady(const TWaiting& waiting, double now) const;
+    bool isKnown(double time) const;
     TDecidedPicture decide(const TWaiting& waiting) const;
     mrpt::obs::CObservation2DRangeScan::Ptr nearestScan(double time) const;
     void giveUpWaiting();
+    void forget();
 
     TJoinQueueOptions m_options;
     std::deque<TWaiting> m_waiting;
@@ -81,6 +85,7 @@ class CJoinQueue {
     observations::CPoseHistory m_odometry;
     Newest m_newestPicture, m_newestScan, m_newestHead, m_newestOdometry;
     std::optional<mrpt::poses::CPose2D> m_robot;
+    observations::CObservationPanTilt::Ptr m_lastHead;
     std::size_t m_jumps{0};
 };
 

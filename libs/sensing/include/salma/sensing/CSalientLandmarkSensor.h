@@ -3,6 +3,7 @@
 
 #include <mrpt/hwdrivers/CGenericSensor.h>
 #include <mrpt/system/COutputLogger.h>
+#include <salma/sensing/CAttention.h>
 #include <salma/sensing/CFrontEndWorker.h>
 #include <salma/sensing/CJoinQueue.h>
 #include <salma/sensing/CSourceSensor.h>
@@ -16,6 +17,10 @@
 #include <set>
 #include <string>
 #include <vector>
+
+namespace salma::drivers {
+class CPanTiltCameraSensor;
+}
 
 namespace salma::sensing {
 
@@ -35,7 +40,8 @@ struct TSensingCounts {
  * `rawlog-grabber-ignore = true`. All they deliver goes to the grabber too; pictures get the pose
  * of the head and, where `camera_params` is set, intrinsics. A picture for which the front end has
  * no time is dropped whole, counted and told: nothing ever queues. Records are those that
- * salma-slam makes of the same log, see CJoinQueue. A source that fails ends this sensor, when the
+ * salma-slam makes of the same log, see CJoinQueue. With `attend` the head turns to what was seen
+ * until it is confirmed, see CAttention. A source that fails ends this sensor, when the
  * pictures before that are done. */
 class CSalientLandmarkSensor : public mrpt::system::COutputLogger,
                                public mrpt::hwdrivers::CGenericSensor {
@@ -66,6 +72,8 @@ class CSalientLandmarkSensor : public mrpt::system::COutputLogger,
     void sort(const mrpt::obs::CObservation::Ptr& observation, const std::string& section);
     void handOver();
     void handOn();
+    void createAttention();
+    void lookAround();
     void drop(const std::string& reason, const std::string& detail = "");
     void report(const std::string& when);
     void throwIfSourceFailed();
@@ -77,6 +85,9 @@ class CSalientLandmarkSensor : public mrpt::system::COutputLogger,
     std::vector<std::unique_ptr<CSourceSensor>> m_sources;
     std::unique_ptr<CJoinQueue> m_queue;
     std::unique_ptr<CFrontEndWorker> m_worker;
+    drivers::CPanTiltCameraSensor* m_head{
+        nullptr};  //!< One of the sources; null: not to be turned.
+    std::optional<CAttention> m_attention;
     TSensingCounts m_counts;
     std::size_t m_jumpsTold{0};
     std::set<std::string> m_told;  //!< Reasons and details that were logged.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <salma/config/TStrictOptions.h>
+#include <salma/sensing/TAttentionOptions.h>
 
 #include <string>
 
@@ -20,8 +20,9 @@ struct TSalientSensorOptions : public config::TStrictOptions<TSalientSensorOptio
     std::string head, odometry;  //!< Likewise; empty: there is none.
     std::string config;          //!< A config.ini of salma-slam; empty: its defaults.
     std::string cameraParams;    //!< File with [CAMERA_PARAMS]; empty: as the pictures say.
-    int threads{1};              //!< Pictures that are worked on at the same time.
-    double wait{0.5};            //!< Longest wait for scan, head and odometry of a picture [s].
+    TAttentionOptions attention;
+    int threads{1};    //!< Pictures that are worked on at the same time.
+    double wait{0.5};  //!< Longest wait for scan, head and odometry of a picture [s].
     double report{
         60};  //!< Time between two lines that tell what was dropped [s]; 0: at the end only.
 
