@@ -9,6 +9,7 @@
 #include <salma/observations/CLogReader.h>
 #include <salma/observations/registerClasses.h>
 #include <salma/observations/repairLog.h>
+#include <salma/sensing/registerSensors.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -82,6 +83,7 @@ void CGrabApp::run(std::ostream& out) {
     loadPlugins();  // first: what a plug-in brings along is not registered again
     observations::registerClasses();
     drivers::registerSensors();
+    sensing::registerSensors();
     if (m_repair.empty())
         capture(out);
     else
