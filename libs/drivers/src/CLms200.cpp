@@ -3,12 +3,12 @@
 #include <salma/drivers/CLms200.h>
 #include <salma/drivers/CSerialLine.h>
 
-#include <chrono>
 #include <cmath>
 #include <stdexcept>
 
 #include "CSickPort.h"
 #include "grabberText.h"
+#include "steadyNow.h"
 
 IMPLEMENTS_GENERIC_SENSOR(CLms200, salma::drivers)
 
@@ -18,11 +18,6 @@ namespace {
 using mrpt::obs::CObservation2DRangeScan;
 
 constexpr double beamAperture = 0.25;  // deg; SICK, "LMS 200 Technical Description": 4.4 mrad
-
-double steadyNow() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
 
 }  // namespace
 
@@ -37,11 +32,18 @@ CLms200::~CLms200() = default;  // CSickLaserSerial tells the laser to stop
 void CLms200::loadConfig_sensorSpecific(const mrpt::config::CConfigFileBase& file,
                                         const std::string& section) {
     setLoggerName(section);
+    TLms200Options options;
     try {
-        m_options.loadFromConfigFile(file, section);
+        options.loadFromConfigFile(file, section);
     } catch (const std::invalid_argument& error) {
         throw std::invalid_argument(withoutBrackets(error.what()));
     }
+    setOptions(options);
+}
+
+void CLms200::setOptions(const TLms200Options& options) {
+    options.validate();
+    m_options = options;
     setSerialPort(absolutePort(m_options.port));
     setBaudRate(m_options.baud);
     setMillimeterMode(m_options.mmMode);
@@ -55,6 +57,7 @@ void CLms200::initialize() {
 }
 
 void CLms200::connect() {
+    disconnect();
     m_state = ssInitializing;
     m_port = std::make_shared<CSickPort>(getSerialPort());
     bindIO(m_port);  // always a fresh one: CSickLaserSerial takes an open port for a laser set up
@@ -131,10 +134,10 @@ void CLms200::correct(CObservation2DRangeScan& scan) const {
 }
 
 void CLms200::reconnect() {
-    if (steadyNow() < m_nextAttempt) return;
+    if (!m_reconnection.due()) return;
     try {
         connect();
-        m_problem.clear();
+        m_reconnection.found();
         ++m_counts.reconnections;
         MRPT_LOG_WARN_STREAM("laser found again at " << m_options.port);
     } catch (const CPortError& error) {
@@ -144,9 +147,8 @@ void CLms200::reconnect() {
 
 void CLms200::lost(const std::string& problem) {
     m_state = ssError;
-    m_nextAttempt = steadyNow() + m_options.reconnectTime;
-    if (problem != m_problem) MRPT_LOG_ERROR_STREAM("laser lost: " << problem);
-    m_problem = problem;
+    if (m_reconnection.lost(problem, m_options.reconnectTime))
+        MRPT_LOG_ERROR_STREAM("laser lost: " << problem);
     disconnect();  // last: `problem` may be the port's own
 }
 

@@ -4,7 +4,6 @@
 #include <salma/drivers/CPanTiltCameraSensor.h>
 #include <salma/drivers/CViscaCamera.h>
 
-#include <chrono>
 #include <stdexcept>
 #include <string>
 
@@ -19,11 +18,6 @@ using mrpt::poses::CPose3D;
 using observations::CObservationPanTilt;
 
 constexpr double historyLength = 10;  // seconds; a picture does not wait that long for its pose
-
-double steadyNow() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
 
 CPose3D poseOf(const TPanTiltCameraOptions::TMount& mount) {
     return {mount.x, mount.y, mount.z, mount.yaw, mount.pitch, mount.roll};
@@ -71,10 +65,10 @@ void CPanTiltCameraSensor::doProcess() {
 }
 
 void CPanTiltCameraSensor::reconnect() {
-    if (steadyNow() < m_nextAttempt) return;
+    if (!m_reconnection.due()) return;
     try {
         connect();
-        m_problem.clear();
+        m_reconnection.found();
         MRPT_LOG_WARN_STREAM("camera found again at " << m_options.port);
     } catch (const std::runtime_error& error) {
         lost(error.what());
@@ -83,9 +77,8 @@ void CPanTiltCameraSensor::reconnect() {
 
 void CPanTiltCameraSensor::lost(const std::string& problem) {
     m_state = ssError;
-    m_nextAttempt = steadyNow() + m_options.reconnectTime;
-    if (problem != m_problem) MRPT_LOG_ERROR_STREAM("camera lost: " << problem);
-    m_problem = problem;
+    if (m_reconnection.lost(problem, m_options.reconnectTime))
+        MRPT_LOG_ERROR_STREAM("camera lost: " << problem);
 }
 
 void CPanTiltCameraSensor::pointTo(double pan, double tilt, double speed) {

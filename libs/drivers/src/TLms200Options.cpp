@@ -19,7 +19,7 @@ void TLms200Options::visit(config::COptionVisitor& v) {
     v.text("driver", driver, "read by rawlog-grabber");
     v.text("sensorLabel", sensorLabel, "name in the records");
     v.number("process_rate", processRate, config::moreThan(0),
-             "looks for scans a second, more often than scans come");
+             "looks for scans a second; a stamp is late by the time between two");
     v.integer("max_queue_len", maxQueue, config::atLeast(1),
               "records that may wait for the grabber");
     v.integer("grab_decimation", decimation, config::atLeast(0), "keep one record of so many");

@@ -67,6 +67,8 @@ int CPseudoTerminal::baud() const {
             return 19200;
         case B38400:
             return 38400;
+        case B115200:
+            return 115200;
         case B500000:
             return 500000;
         default:

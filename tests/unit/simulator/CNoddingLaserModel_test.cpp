@@ -53,6 +53,21 @@ TEST(CNoddingLaserModel, LooksDownAtTheFloorAndUpAtTheWall) {
     EXPECT_NEAR(z, 0, kFiveSigma);
 }
 
+TEST(CNoddingLaserModel, AMountThatMovesTiltsEachBeamByItself) {
+    const test::CTemporaryFolder folder;
+    const CWorld world(load(folder, roomIni()));
+    const double degree = M_PI / 180;
+    const auto scan = CNoddingLaserModel(laserOptions(), {}, world, 1)
+                          .scan({0, 0, 0}, -10 * degree, 10 * degree, std::uint64_t{0});
+    EXPECT_NEAR(scan.sensorPose.pitch(), 0, 1e-12);
+    // 45 deg to the right, tilted by -5 deg: the wall 1.5 m to the side; turning about the level
+    // axis leaves y alone
+    EXPECT_NEAR(scan.getScanRange(90), 1.5 / std::sin(45 * degree), kFiveSigma);
+    // 10 deg to the left, tilted by 10 / 9 deg: the wall 3.82 m ahead
+    EXPECT_NEAR(scan.getScanRange(200), 3.82 / (std::cos(10 * degree) * std::cos(10 * degree / 9)),
+                kFiveSigma);
+}
+
 TEST(CNoddingLaserModel, RefusesASweepThatIsNone) {
     const test::CTemporaryFolder folder;
     const CWorld world(load(folder, roomIni()));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <mrpt/hwdrivers/CSickLaserSerial.h>
+#include <salma/drivers/CReconnection.h>
 #include <salma/drivers/TLms200Options.h>
 
 #include <cstddef>
@@ -45,6 +46,9 @@ class CLms200 : public mrpt::hwdrivers::CSickLaserSerial {
                          mrpt::obs::CObservation2DRangeScan& scan,
                          bool& hardwareError) override;
 
+    /// In place of loadConfig(), before initialize(). \throw std::invalid_argument
+    void setOptions(const TLms200Options& options);
+
     TLms200Counts counts() const;
     const TLms200Options& options() const { return m_options; }
 
@@ -62,9 +66,8 @@ class CLms200 : public mrpt::hwdrivers::CSickLaserSerial {
 
     TLms200Options m_options;
     std::shared_ptr<CSickPort> m_port;  //!< Empty while the laser is lost.
-    double m_lastScan{0};               //!< By the steady clock [s], as m_nextAttempt.
-    double m_nextAttempt{0};
-    std::string m_problem;  //!< That was said last; each is said once.
+    double m_lastScan{0};               //!< By the steady clock [s].
+    CReconnection m_reconnection;
     TLms200Counts m_counts;
 };
 

@@ -3,6 +3,7 @@
 
 #include <mrpt/hwdrivers/CGenericSensor.h>
 #include <mrpt/system/COutputLogger.h>
+#include <salma/drivers/CReconnection.h>
 #include <salma/drivers/TPanTiltCameraOptions.h>
 #include <salma/observations/CPanTiltHistory.h>
 
@@ -64,8 +65,7 @@ class CPanTiltCameraSensor : public mrpt::system::COutputLogger,
 
     TPanTiltCameraOptions m_options;
     std::unique_ptr<CViscaCamera> m_camera;  //!< Empty while it is lost.
-    double m_nextAttempt{0};                 //!< By the steady clock [s].
-    std::string m_problem;                   //!< That was said last; each is said once.
+    CReconnection m_reconnection;
     int m_recordsUntilZoom{0};
     double m_zoom{1};
     struct TGoal {

@@ -12,7 +12,8 @@ namespace salma::drivers {
 struct TLms200Options : public config::TStrictOptions<TLms200Options> {
     std::string driver{"CLms200"};
     std::string sensorLabel{"LASER"};
-    double processRate{90};  //!< Looks for scans a second; more often than scans come.
+    double processRate{
+        500};  //!< Looks for scans a second: a stamp is late by the time between two.
     int maxQueue{200};
     int decimation{1};
     std::string ignore{"false"};

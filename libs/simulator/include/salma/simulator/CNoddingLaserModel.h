@@ -10,6 +10,8 @@
 
 namespace salma::simulator {
 
+class CRandom;
+
 /// How a nodding mount sweeps.
 struct TNoddingOptions {
     double lowest{mrpt::DEG2RAD(-20.0)};  //!< Elevation of the first scan's middle beam [rad].
@@ -35,11 +37,23 @@ class CNoddingLaserModel {
     std::vector<mrpt::obs::CObservation2DRangeScan> sweep(const mrpt::math::TPose2D& T_w_r,
                                                           std::uint64_t index) const;
 
+    /** One scan while the mount moves from elevation `first` (that of the rightmost beam) to `last`
+     * [rad]. \param index Number of the scan, which selects its noise.
+     * \return With the pose that its middle beam has, without stamp. */
+    mrpt::obs::CObservation2DRangeScan scan(const mrpt::math::TPose2D& T_w_r,
+                                            double first,
+                                            double last,
+                                            std::uint64_t index) const;
+
  private:
     struct THit {
         double range;
         int face;  //!< -1 for none.
     };
+    mrpt::obs::CObservation2DRangeScan scan(const mrpt::math::TPose2D& T_w_r,
+                                            double first,
+                                            double last,
+                                            CRandom& random) const;
     THit cast(const Eigen::Vector3d& from, const Eigen::Vector3d& direction) const;
 
     TLaserOptions m_options;
