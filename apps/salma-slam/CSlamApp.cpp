@@ -62,6 +62,7 @@ void CSlamApp::initialize(const TSlamArguments& arguments) {
     m_record.seed = static_cast<std::uint32_t>(m_config.lines.seed);
     m_record.options = m_config.asIni();
     noticeWhatIsMissing();
+    noticeOfSpace();
 }
 
 void CSlamApp::notice(const std::string& text) {
@@ -93,6 +94,25 @@ void CSlamApp::noticeWhatIsMissing() {
         throw std::runtime_error(m_log.file +
                                  ": no landmark source: neither laser with odometry nor "
                                  "range-bearing observations");
+}
+
+/// What a filter does with motion and sensors of another number of dimensions.
+void CSlamApp::noticeOfSpace() {
+    const auto& steps = m_log.steps;
+    const bool spatial = std::any_of(steps.begin(), steps.end(), [](const auto& step) {
+        return step.spatialIncrement.has_value();
+    });
+    if (!m_config.isSpatial()) {
+        if (spatial) notice("odometry is in space: the filter in the plane sees it from above");
+        return;
+    }
+    if (countOf(m_log, "mrpt::obs::CObservationBearingRange") == 0)
+        throw std::runtime_error(m_log.file +
+                                 ": state = 6d in [ekf] needs range-bearing observations");
+    if (m_log.hasOdometry && !spatial)
+        notice("odometry is in the plane: height, pitch and roll are taken to stay");
+    if (m_log.counts.size() > 1)
+        notice("of the sensors, a filter in space takes range-bearing alone");
 }
 
 void CSlamApp::noticeOfPictures(const TSeen& seen) {

@@ -48,6 +48,7 @@ class CSlamApp {
  private:
     std::string accuracy() const;
     void noticeWhatIsMissing();
+    void noticeOfSpace();
     void noticeOfPictures(const TSeen& seen);
     void noticeOfCalibration();
     void notice(const std::string& text);

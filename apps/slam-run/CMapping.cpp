@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <stdexcept>
 
 #include "CProgressBar.h"
 #include "measurements.h"
@@ -23,6 +24,7 @@ struct CMapping::TEvent {
     std::vector<mrpt::obs::CObservation::Ptr> observations;
     mrpt::poses::CPose2D odometry;                           //!< T_o_r at `time`.
     std::optional<mrpt::poses::CPosePDFGaussian> increment;  //!< As the log states it.
+    std::optional<mrpt::poses::CPose3DPDFGaussian> spatialIncrement;
 };
 
 CMapping::CMapping(const TSlamConfig& config,
@@ -42,7 +44,8 @@ std::vector<CMapping::TEvent> CMapping::events(
     for (const auto& record : records) byPicture[record->timestamp] = record;
     std::vector<TEvent> result;
     for (const auto& step : m_log.steps) {
-        TEvent event{step.time, step.observations, step.odometry, step.increment};
+        TEvent event{step.time, step.observations, step.odometry, step.increment,
+                     step.spatialIncrement};
         for (auto& o : event.observations) {
             const bool isPicture =
                 std::dynamic_pointer_cast<mrpt::obs::CObservationImage>(o) != nullptr;
@@ -76,6 +79,7 @@ bool CMapping::isDue(const TEvent& event) const {
 bool CMapping::measure(const TEvent& event,
                        slam::TStepInput& step,
                        std::vector<laser::TLine>& walls) const {
+    if (m_config.isSpatial()) return measureInSpace(event, step);
     bool isStep = m_log.actionFormat;
     for (const auto& o : event.observations) {
         if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(o)) {
@@ -96,6 +100,23 @@ bool CMapping::measure(const TEvent& event,
         }
     }
     return isStep;
+}
+
+bool CMapping::measureInSpace(const TEvent& event, slam::TStepInput& step) const {
+    slam::TSpatialStep& spatial = step.spatial.emplace();
+    bool found = false;
+    for (const auto& o : event.observations) {
+        const auto ranges = std::dynamic_pointer_cast<mrpt::obs::CObservationBearingRange>(o);
+        if (!ranges) continue;
+        if (found)
+            throw std::invalid_argument(m_log.file +
+                                        ": a step has two range-bearing records, but "
+                                        "MRPT's filter in space takes one");
+        spatial.sensor = ranges->sensorLocationOnRobot;
+        spatial.measurements = slam::spatialMeasurementsOf(*ranges, m_config.rangeBearing);
+        found = true;
+    }
+    return found || m_log.actionFormat;
 }
 
 mrpt::poses::CPosePDFGaussian CMapping::incrementTo(const TEvent& event) {
@@ -144,6 +165,9 @@ void CMapping::run(const std::vector<CObservationSalientLandmarks::Ptr>& records
         if (first) m_lastTime = event.time;
         first = false;
         step.increment = incrementTo(event);
+        if (step.spatial)
+            step.spatial->increment =
+                event.spatialIncrement.value_or(mrpt::poses::CPose3DPDFGaussian(step.increment));
         if (!walls.empty())
             step.increment = m_walls.refine(step.increment, walls);
         else

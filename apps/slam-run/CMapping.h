@@ -39,6 +39,7 @@ class CMapping {
     bool measure(const TEvent& event,
                  slam::TStepInput& step,
                  std::vector<laser::TLine>& walls) const;
+    bool measureInSpace(const TEvent& event, slam::TStepInput& step) const;
     bool isDue(const TEvent& event) const;
     mrpt::poses::CPosePDFGaussian incrementTo(const TEvent& event);
     void keepPoints(const mrpt::obs::CObservation2DRangeScan& scan, slam::TRunRecord& record) const;

@@ -54,6 +54,11 @@ struct TSlamConfig {
     slam::TOdometryOptions odometry;
     slam::TRangeBearingOptions rangeBearing;
 
+    /// True if the filter works in space: it takes range-bearing records alone.
+    bool isSpatial() const {
+        return run.backend == EBackend::ekf && ekf.state == slam::EState::space;
+    }
+
     /// \throw std::invalid_argument naming file, section, key and value of the first mistake.
     static TSlamConfig load(const std::string& file);
 

@@ -3,6 +3,7 @@
 
 #include <salma/appearance/CPatchMatcher.h>
 #include <salma/slam/CSalientEKF2D.h>
+#include <salma/slam/CSalientEKF3D.h>
 #include <salma/slam/CSalientRBPF2D.h>
 
 #include <stdexcept>
@@ -42,6 +43,8 @@ std::unique_ptr<slam::CSlamBackend> createBackend(const TSlamConfig& config) {
                                            config.regionMatcher, config.rangeBearing};
         return std::make_unique<slam::CSalientRBPF2D>(config.rbpf, maps);
     }
+    if (config.ekf.state == slam::EState::space)
+        return std::make_unique<slam::CSalientEKF3D>(config.ekf, config.association);
     const auto matcher =
         std::make_shared<const appearance::CPatchMatcher>(config.matcher, config.regionMatcher);
     return std::make_unique<slam::CSalientEKF2D>(

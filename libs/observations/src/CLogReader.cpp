@@ -12,7 +12,6 @@
 
 namespace fs = std::filesystem;
 using mrpt::obs::CObservation;
-using mrpt::poses::CPosePDFGaussian;
 
 namespace salma::observations {
 namespace {
@@ -32,7 +31,7 @@ void count(const CObservation& observation, TLog& log) {
 /// Motion of a collection, joined to what collections before it said since the last frame.
 void addMovement(const mrpt::obs::CActionCollection& actions,
                  const std::string& file,
-                 std::optional<CPosePDFGaussian>& pending) {
+                 std::optional<TMovement>& pending) {
     try {
         const auto movement = movementOf(actions);
         if (pending && movement)
@@ -59,7 +58,7 @@ TFrame observationsOf(const mrpt::obs::CSensoryFrame& frame, TLog& log) {
 
 TLogParts takeApart(const TRawObjects& raw, const std::string& file, TLog& log) {
     TLogParts parts;
-    std::optional<CPosePDFGaussian> pending;
+    std::optional<TMovement> pending;
     for (const auto& object : raw.objects) {
         if (const auto observation = std::dynamic_pointer_cast<CObservation>(object)) {
             count(*observation, log);

@@ -116,8 +116,11 @@ void accumulate(const TLogParts& parts, TLog& log) {
     bool increasing = true;
     for (std::size_t i = 0; i < log.steps.size(); ++i) {
         TLogStep& step = log.steps[i];
-        step.increment = parts.increments[i];
-        if (step.increment) odometry = odometry + step.increment->mean;
+        if (const auto& movement = parts.increments[i]) {
+            step.increment = movement->flat;
+            step.spatialIncrement = movement->spatial;
+            odometry = odometry + step.increment->mean;
+        }
         step.odometry = odometry;
         increasing = increasing && (i == 0 || step.time > log.steps[i - 1].time);
     }

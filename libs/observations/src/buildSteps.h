@@ -3,6 +3,7 @@
 
 #include <salma/observations/CLogReader.h>
 
+#include "movement.h"
 #include "nearestFrames.h"
 
 namespace salma::observations {
@@ -13,7 +14,7 @@ struct TLogParts {
     TFrame single;               //!< Observations outside of frames, in the order of the file.
     std::vector<TFrame> frames;  //!< Without empty entries.
     /// Motion up to each frame, where actions state it; as long as `frames`.
-    std::vector<std::optional<mrpt::poses::CPosePDFGaussian>> increments;
+    std::vector<std::optional<TMovement>> increments;
 };
 
 /// Fills steps, odometry, panTilt, dropped and outOfOrder of `log`. Takes `parts` to pieces.

@@ -63,19 +63,31 @@ CPosePDFGaussian fromThrunModel(const CActionRobotMovement2D& action) {
 
 }  // namespace
 
-std::optional<CPosePDFGaussian> movementOf(const mrpt::obs::CActionCollection& actions) {
+TMovement& TMovement::operator+=(const TMovement& next) {
+    flat += next.flat;
+    if (spatial && next.spatial)
+        *spatial += *next.spatial;
+    else
+        spatial.reset();
+    return *this;
+}
+
+std::optional<TMovement> movementOf(const mrpt::obs::CActionCollection& actions) {
     refuseEmpty(actions);
-    CPosePDFGaussian movement;
+    TMovement movement;
     if (const auto flat = actions.getBestMovementEstimation()) {
         const bool redrawn = std::dynamic_pointer_cast<mrpt::poses::CPosePDFParticles>(
                                  flat->poseChange.get_ptr()) != nullptr;
-        if (redrawn && isOdometry(*flat)) return fromThrunModel(*flat);
-        movement.copyFrom(*flat->poseChange);
+        if (redrawn && isOdometry(*flat))
+            movement.flat = fromThrunModel(*flat);
+        else
+            movement.flat.copyFrom(*flat->poseChange);
         return movement;
     }
     const auto spatial = actions.getActionByClass<CActionRobotMovement3D>();
     if (!spatial) return std::nullopt;
-    movement.copyFrom(spatial->poseChange);
+    movement.flat.copyFrom(spatial->poseChange);
+    movement.spatial = spatial->poseChange;
     return movement;
 }
 

@@ -4,8 +4,11 @@
 namespace salma::slam {
 
 void TEkfOptions::visit(config::COptionVisitor& v) {
-    v.choice("update", update, {{"block", EUpdate::block}, {"mrpt", EUpdate::mrpt}},
-             "own step with a covariance per measurement, or the step of MRPT's filter");
+    v.choice("state", state, {{"2d", EState::plane}, {"6d", EState::space}},
+             "pose in the plane or in space; 6d takes range-bearing records alone");
+    v.choice(
+        "update", update, {{"block", EUpdate::block}, {"mrpt", EUpdate::mrpt}},
+        "own step with a covariance per measurement, or the step of MRPT's filter (always in 6d)");
     v.flag("ignore_identities", ignoreIdentities, "do not read the identities in the log");
     v.number("max_range_m", maxRange, config::moreThan(0),
              "distance up to which landmarks are expected to be seen");

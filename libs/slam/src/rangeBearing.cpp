@@ -10,14 +10,35 @@
 namespace salma::slam {
 namespace {
 
-Eigen::Matrix2d noise(const mrpt::obs::CObservationBearingRange& record,
+/// Covariance of range, yaw and pitch.
+Eigen::Matrix3d noise(const mrpt::obs::CObservationBearingRange& record,
                       std::size_t index,
                       const TRangeBearingOptions& options) {
-    if (record.validCovariances)
-        return record.sensedData[index].covariance.asEigen().topLeftCorner<2, 2>();
-    const double range = record.sensor_std_range > 0 ? record.sensor_std_range : options.sigmaRange;
-    const double bearing = record.sensor_std_yaw > 0 ? record.sensor_std_yaw : options.sigmaBearing;
-    return Eigen::Vector2d(range * range, bearing * bearing).asDiagonal();
+    if (record.validCovariances) return record.sensedData[index].covariance.asEigen();
+    const auto stated = [](double inRecord, double byOptions) {
+        return inRecord > 0 ? inRecord : byOptions;
+    };
+    return Eigen::Vector3d(stated(record.sensor_std_range, options.sigmaRange),
+                           stated(record.sensor_std_yaw, options.sigmaBearing),
+                           stated(record.sensor_std_pitch, options.sigmaPitch))
+        .cwiseAbs2()
+        .asDiagonal();
+}
+
+[[noreturn]] void fail(const mrpt::obs::CObservationBearingRange& record,
+                       std::size_t index,
+                       const std::string& problem) {
+    throw std::invalid_argument("Range-bearing sensor '" + record.sensorLabel + "', landmark " +
+                                std::to_string(index) + ": " + problem);
+}
+
+/// \throw std::invalid_argument
+void checkSensed(const mrpt::obs::CObservationBearingRange& record, std::size_t index) {
+    const auto& sensed = record.sensedData[index];
+    if (!(sensed.range > 0) || !std::isfinite(sensed.range) || !std::isfinite(sensed.yaw))
+        fail(record, index,
+             "range " + std::to_string(sensed.range) + " m, bearing " + std::to_string(sensed.yaw) +
+                 " rad");
 }
 
 /// Range and bearing from the robot's origin instead of the sensor's.
@@ -44,6 +65,8 @@ void TRangeBearingOptions::visit(config::COptionVisitor& v) {
              "standard deviation of the range where the record states none");
     v.degrees("sigma_bearing_deg", sigmaBearing, config::moreThan(0),
               "standard deviation of the bearing where the record states none");
+    v.degrees("sigma_pitch_deg", sigmaPitch, config::moreThan(0),
+              "standard deviation of the pitch where the record states none (6d)");
 }
 
 std::vector<association::TMeasurement> measurementsOf(
@@ -52,20 +75,34 @@ std::vector<association::TMeasurement> measurementsOf(
     std::vector<association::TMeasurement> result;
     for (std::size_t i = 0; i < record.sensedData.size(); ++i) {
         const auto& sensed = record.sensedData[i];
-        const auto fail = [&](const std::string& problem) {
-            throw std::invalid_argument("Range-bearing sensor '" + record.sensorLabel +
-                                        "', landmark " + std::to_string(i) + ": " + problem);
-        };
-        if (!(sensed.range > 0) || !std::isfinite(sensed.range) || !std::isfinite(sensed.yaw))
-            fail("range " + std::to_string(sensed.range) + " m, bearing " +
-                 std::to_string(sensed.yaw) + " rad");
+        checkSensed(record, i);
         if (!(sensed.pitch == 0))
-            fail("pitch " + std::to_string(sensed.pitch) + " rad, but the filter is planar");
+            fail(record, i,
+                 "pitch " + std::to_string(sensed.pitch) +
+                     " rad, but the filter is planar (state = 6d in [ekf] is not)");
         association::TMeasurement measurement;
         measurement.z << sensed.range, mrpt::math::wrapToPi(static_cast<double>(sensed.yaw));
-        measurement.R = noise(record, i, options);
+        measurement.R = noise(record, i, options).topLeftCorner<2, 2>();
         if (sensed.landmarkID >= 0) measurement.identity = sensed.landmarkID;
         toRobotFrame(sensor, measurement);
+        result.push_back(measurement);
+    }
+    return result;
+}
+
+std::vector<association::TMeasurement3D> spatialMeasurementsOf(
+    const mrpt::obs::CObservationBearingRange& record, const TRangeBearingOptions& options) {
+    std::vector<association::TMeasurement3D> result;
+    for (std::size_t i = 0; i < record.sensedData.size(); ++i) {
+        const auto& sensed = record.sensedData[i];
+        checkSensed(record, i);
+        if (!(std::abs(sensed.pitch) < M_PI / 2))
+            fail(record, i, "pitch " + std::to_string(sensed.pitch) + " rad");
+        association::TMeasurement3D measurement;
+        measurement.z << sensed.range, mrpt::math::wrapToPi(static_cast<double>(sensed.yaw)),
+            sensed.pitch;
+        measurement.R = noise(record, i, options);
+        if (sensed.landmarkID >= 0) measurement.identity = sensed.landmarkID;
         result.push_back(measurement);
     }
     return result;

@@ -53,6 +53,17 @@ Cells cellsOf(const slam::TMapLandmark& l) {
             stamp(l.lastTime)};
 }
 
+Cells spatialCellsOf(const slam::TMapLandmark& l) {
+    return {std::to_string(l.id),
+            number(l.mean.x),
+            number(l.mean.y),
+            number(l.z),
+            number(std::sqrt(l.covariance(0, 0))),
+            number(std::sqrt(l.covariance(1, 1))),
+            number(l.sigmaZ),
+            std::to_string(l.sightings)};
+}
+
 Cells cellsOf(const slam::TAssociationRow& a) {
     return {stamp(a.time),
             std::to_string(a.observation),
@@ -97,6 +108,14 @@ nlohmann::ordered_json optionsOf(const std::string& ini) {
         }
     }
     return json;
+}
+
+/// In space where the filter has it so.
+void writePath(const TRunRecord& record, const std::string& file) {
+    std::vector<TStampedSpatialPose> path;
+    for (const auto& row : record.trajectory)
+        path.push_back({row.time, row.spatial.value_or(mrpt::poses::CPose3D(row.pose))});
+    writeTum(path, file);
 }
 
 void writeSummary(const TRunRecord& record, const std::string& file) {
@@ -191,6 +210,10 @@ std::vector<std::string> landmarkColumns() {
             "sigma_y_m", "sightings", "first_t_s", "last_t_s"};
 }
 
+std::vector<std::string> spatialLandmarkColumns() {
+    return {"id", "x_m", "y_m", "z_m", "sigma_x_m", "sigma_y_m", "sigma_z_m", "sightings"};
+}
+
 std::vector<std::string> associationColumns() {
     return {"t_s",  "observation", "kind",        "range_m", "bearing_deg", "u_px",
             "v_px", "decision",    "landmark_id", "d2",      "log_lr",      "n_candidates"};
@@ -205,9 +228,12 @@ std::vector<std::string> innovationColumns() { return {"t_s", "component", "valu
 CRunWriter::CRunWriter(std::filesystem::path folder) : m_folder(std::move(folder)) {}
 
 void CRunWriter::writeTables(const TRunRecord& r) const {
-    writeTum(estimatedPath(r), (m_folder / "trajectory.tum").string());
+    writePath(r, (m_folder / "trajectory.tum").string());
     writeCsv(m_folder / "landmarks.csv", landmarkColumns(), r.landmarks.size(),
              [&](std::size_t i) { return cellsOf(r.landmarks[i]); });
+    if (!r.trajectory.empty() && r.trajectory.front().spatial)
+        writeCsv(m_folder / "landmarks3d.csv", spatialLandmarkColumns(), r.landmarks.size(),
+                 [&](std::size_t i) { return spatialCellsOf(r.landmarks[i]); });
     writeCsv(m_folder / "associations.csv", associationColumns(), r.associations.size(),
              [&](std::size_t i) { return cellsOf(r.associations[i]); });
     writeCsv(m_folder / "candidates.csv", candidateColumns(), r.candidates.size(),

@@ -68,11 +68,22 @@ TTrajectory readTum(const std::string& file) {
 }
 
 void writeTum(const TTrajectory& trajectory, const std::string& file) {
-    CTextFile text(file);
+    std::vector<TStampedSpatialPose> spatial;
     for (const auto& [time, pose] : trajectory)
-        text.out() << stamp(time) << ' ' << number(pose.x()) << ' ' << number(pose.y()) << " 0 0 0 "
-                   << number(std::sin(pose.phi() / 2)) << ' ' << number(std::cos(pose.phi() / 2))
-                   << '\n';
+        spatial.push_back({time, mrpt::poses::CPose3D(pose)});
+    writeTum(spatial, file);
+}
+
+void writeTum(const std::vector<TStampedSpatialPose>& trajectory, const std::string& file) {
+    CTextFile text(file);
+    for (const auto& [time, pose] : trajectory) {
+        mrpt::math::CQuaternionDouble q;
+        pose.getAsQuaternion(q);
+        text.out() << stamp(time);
+        for (const double value : {pose.x(), pose.y(), pose.z(), q.x(), q.y(), q.z(), q.r()})
+            text.out() << ' ' << number(value);
+        text.out() << '\n';
+    }
     text.close();
 }
 

@@ -154,6 +154,22 @@ TEST(SalmaSlam, RunsOnARangeBearingLogWithoutLaser) {
     EXPECT_EQ(summary.at("landmarks"), 70) << "known identities";
 }
 
+TEST(SalmaSlam, RunsOnARangeBearingLogInSpace) {
+    const std::string log = kDatasets + "kf-slam_6D_demo_DA.rawlog";
+    if (!fs::exists(log)) GTEST_SKIP() << "SKIPPED, not here: " << log;
+    const CTemporaryFolder folder;
+    const auto planar = slam(kConfig, log, folder / "planar");
+    EXPECT_EQ(planar.exitCode, 1);
+    EXPECT_NE(planar.output.find("state = 6d"), std::string::npos) << planar.output;
+    const auto result = slam(SALMA_SOURCE_DIR "/share/range-bearing/space.ini", log, folder / "out",
+                             {"--ignore-ids"});
+    EXPECT_EQ(result.exitCode, 0) << result.output;
+    const std::string map = readFile(folder / "out/landmarks3d.csv");
+    EXPECT_EQ(map.rfind("id,x_m,y_m,z_m,sigma_x_m,sigma_y_m,sigma_z_m,sightings\n", 0), 0u) << map;
+    EXPECT_EQ(std::count(map.begin(), map.end(), '\n'), 1 + 20);
+    EXPECT_NE(readFile(folder / "out/innovations.csv").find("pitch_deg"), std::string::npos);
+}
+
 TEST(SalmaSlam, SeesPostersInASimulatedObservationOnlyLogAndReplaysItsRecords) {
     const std::string log = simulatedLog();
     const CTemporaryFolder folder;

@@ -146,6 +146,18 @@ TEST(CLogReader, MotionsIn3DAreSeenFromAbove) {
     EXPECT_NEAR(increment.mean.phi(), 0.5, 1e-9);
     EXPECT_NEAR(increment.cov(0, 0), 0.01, 1e-9);
     EXPECT_NEAR(increment.cov(2, 2), 0.01, 1e-9);
+    ASSERT_TRUE(log.steps[0].spatialIncrement);
+    EXPECT_NEAR(log.steps[0].spatialIncrement->mean.z(), 9, 1e-9);
+}
+
+TEST(CLogReader, MotionsIn3DBeforeOneFrameAddUpInSpaceToo) {
+    const CTemporaryFolder folder;
+    const mrpt::poses::CPose3D step(1, 0, 0.5, 0.1, 0.2, 0);
+    const auto log = readLog(folder.write(
+        "log.rawlog", test::bytesOf({test::motion3D(step, 0.01), test::motion3D(step, 0.01),
+                                     test::frame({test::scanAt(0)})})));
+    ASSERT_TRUE(log.steps.at(0).spatialIncrement);
+    EXPECT_NEAR(log.steps[0].spatialIncrement->mean.z(), (step + step).z(), 1e-9);
 }
 
 TEST(CLogReader, MotionsOfThrunsModelHaveTheCovarianceOfItsParticles) {

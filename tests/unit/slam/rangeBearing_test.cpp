@@ -81,5 +81,26 @@ TEST(RangeBearing, RefusesWhatIsNotPlanarOrNotFinite) {
                  std::invalid_argument);
 }
 
+TEST(RangeBearing, KeepsThePitchInSpace) {
+    auto made = record(2, 0.5F, 7);
+    made.sensedData[0].pitch = -0.25F;
+    const auto found = spatialMeasurementsOf(made);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_NEAR((found[0].z - Eigen::Vector3d(2, 0.5, -0.25)).norm(), 0, 1e-7);
+    EXPECT_EQ(found[0].identity, 7);
+    // The record states no deviation of the pitch: that of the options.
+    EXPECT_NEAR(found[0].R(2, 2), std::pow(TRangeBearingOptions().sigmaPitch, 2), 1e-12);
+    EXPECT_NEAR(found[0].R(1, 1), 0.25, 1e-9);
+}
+
+TEST(RangeBearing, RefusesAPitchThatIsNoneAndOneInThePlane) {
+    auto made = record(2, 0);
+    for (const float pitch : {std::numeric_limits<float>::quiet_NaN(), 1.6F, -1.6F}) {
+        made.sensedData[0].pitch = pitch;
+        EXPECT_THROW(spatialMeasurementsOf(made), std::invalid_argument);
+        EXPECT_THROW(measurementsOf(made), std::invalid_argument);
+    }
+}
+
 }  // namespace
 }  // namespace salma::slam

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <mrpt/obs/CObservation.h>
+#include <mrpt/poses/CPose3DPDFGaussian.h>
 #include <mrpt/poses/CPosePDFGaussian.h>
 #include <salma/observations/CPanTiltHistory.h>
 #include <salma/observations/CPoseHistory.h>
@@ -25,6 +26,8 @@ struct TLogStep {
     /// Motion of the robot since the previous step with the covariance that the action states;
     /// only in action/SF logs.
     std::optional<mrpt::poses::CPosePDFGaussian> increment;
+    /// The same motion in space, where the action states it so.
+    std::optional<mrpt::poses::CPose3DPDFGaussian> spatialIncrement;
 };
 
 /** A rawlog as the rest of the system sees it, whichever of MRPT's two formats it has.

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <mrpt/math/TPoint2D.h>
+#include <mrpt/poses/CPose3DPDFGaussian.h>
 #include <mrpt/poses/CPosePDFGaussian.h>
 #include <salma/slam/TRunRecord.h>
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace salma::slam {
@@ -19,13 +21,21 @@ struct TSpot {
     double axisAngle{std::numeric_limits<double>::quiet_NaN()};
 };
 
+/// What a filter in space takes instead of the plane's motion and measurements.
+struct TSpatialStep {
+    mrpt::poses::CPose3DPDFGaussian increment;  //!< Motion since the step before, robot frame.
+    mrpt::poses::CPose3D sensor;                //!< T_r_s
+    std::vector<association::TMeasurement3D> measurements;  //!< In the frame of the sensor.
+};
+
 /// All that happened between the step before and this one.
 struct TStepInput {
     double time{0};                           //!< [s since 1970]
     mrpt::poses::CPosePDFGaussian increment;  //!< Motion since the step before, robot frame.
     mrpt::poses::CPose2D odometry;            //!< T_o_r by odometry alone, for the record.
     std::vector<association::TMeasurement> measurements;
-    std::vector<TSpot> spots;  //!< One per measurement, or none at all.
+    std::vector<TSpot> spots;             //!< One per measurement, or none at all.
+    std::optional<TSpatialStep> spatial;  //!< Only for filters in space.
 };
 
 /// A way to make a trajectory and a map of measurements.

@@ -13,17 +13,24 @@ enum class EUpdate {
     mrpt    //!< The step of MRPT's Kalman filter: the step's mean R for all, dense matrices.
 };
 
+/// What the filter estimates.
+enum class EState {
+    plane,  //!< Pose (x, y, heading) and 2-D landmarks: CSalientEKF2D.
+    space   //!< Six degrees of freedom and 3-D landmarks: CSalientEKF3D.
+};
+
 /// Section [ekf] of config.ini.
 struct TEkfOptions : public config::TStrictOptions<TEkfOptions> {
-    EUpdate update{EUpdate::block};
-    bool ignoreIdentities{false};   //!< Identities in the log are not read.
-    double maxRange{40};            //!< Landmarks farther away are not expected [m].
-    double fieldOfView{2 * M_PI};   //!< Centred on straight ahead [rad].
-    int minSightingsCorner{3};      //!< Sightings before a corner becomes a landmark.
-    double provisionalRadius{0.3};  //!< Sightings of one provisional corner lie within it [m].
-    int provisionalSteps{20};       //!< Steps with corners until a provisional one is forgotten.
-    int maxPatches{4};              //!< Views of a salient landmark that are kept.
-    double patchSpread{M_PI / 12};  //!< Two kept views differ at least so much in incidence [rad].
+    EState state{EState::plane};
+    EUpdate update{EUpdate::block};  //!< In the plane; in space it is MRPT's.
+    bool ignoreIdentities{false};    //!< Identities in the log are not read.
+    double maxRange{40};             //!< Landmarks farther away are not expected [m].
+    double fieldOfView{2 * M_PI};    //!< Centred on straight ahead [rad].
+    int minSightingsCorner{3};       //!< Sightings before a corner becomes a landmark.
+    double provisionalRadius{0.3};   //!< Sightings of one provisional corner lie within it [m].
+    int provisionalSteps{20};        //!< Steps with corners until a provisional one is forgotten.
+    int maxPatches{4};               //!< Views of a salient landmark that are kept.
+    double patchSpread{M_PI / 12};   //!< Two kept views differ at least so much in incidence [rad].
     /// In one track appearance counts again after this change of the viewing angle [rad].
     double decorrelation{35 * M_PI / 180};
     double trackGap{10};  //!< A landmark that was not paired for longer begins another track [s].

@@ -3,6 +3,7 @@
 
 #include <mrpt/math/TPoint2D.h>
 #include <mrpt/poses/CPose2D.h>
+#include <mrpt/poses/CPose3D.h>
 #include <salma/association/TMeasurement.h>
 
 #include <Eigen/Core>
@@ -10,6 +11,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +28,7 @@ struct TTrajectoryRow {
     Eigen::Matrix3d covariance{Eigen::Matrix3d::Zero()};  //!< Of (x, y, heading) [m, rad].
     mrpt::poses::CPose2D odometry;                        //!< T_o_r, odometry alone.
     ESight sight{ESight::nothing};
+    std::optional<mrpt::poses::CPose3D> spatial;  //!< T_w_r of a filter in space.
 };
 
 /// A row of associations.csv. NaN stands for "has none" and is written as an empty cell.
@@ -59,7 +62,7 @@ struct TCandidateRow {
 /// A row of innovations.csv.
 struct TInnovationRow {
     double time{0};
-    std::string component;  //!< "range_m" or "bearing_deg".
+    std::string component;  //!< "range_m", "bearing_deg" or "pitch_deg".
     double value{0};        //!< In the component's unit.
     double sigma{0};        //!< In the component's unit, from the innovation covariance.
 };
@@ -69,7 +72,10 @@ struct TMapLandmark {
     association::ELandmarkKind kind{association::ELandmarkKind::corner};
     mrpt::math::TPoint2D mean;                            //!< [m], world.
     Eigen::Matrix2d covariance{Eigen::Matrix2d::Zero()};  //!< [m^2]
-    mrpt::math::TPoint2D firstMean;                       //!< When it was first seen.
+    /// Height and its deviation, of a filter in space [m]; NaN in the plane.
+    double z{std::numeric_limits<double>::quiet_NaN()};
+    double sigmaZ{std::numeric_limits<double>::quiet_NaN()};
+    mrpt::math::TPoint2D firstMean;  //!< When it was first seen.
     Eigen::Matrix2d firstCovariance{Eigen::Matrix2d::Zero()};
     std::size_t sightings{0};
     double firstTime{0}, lastTime{0};                   //!< [s since 1970]

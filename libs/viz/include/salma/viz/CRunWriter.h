@@ -33,6 +33,7 @@ std::string nameOf(association::ELandmarkKind kind);
 
 /// Columns of the files, in their order.
 std::vector<std::string> landmarkColumns();
+std::vector<std::string> spatialLandmarkColumns();
 std::vector<std::string> associationColumns();
 std::vector<std::string> candidateColumns();
 std::vector<std::string> innovationColumns();
@@ -47,7 +48,7 @@ class CRunWriter {
     explicit CRunWriter(std::filesystem::path folder);
 
     /// trajectory.tum, landmarks.csv, associations.csv, candidates.csv, innovations.csv,
-    /// summary.json.
+    /// summary.json; of a filter in space also landmarks3d.csv.
     void writeTables(const slam::TRunRecord& record) const;
 
     /** The tables, map.png, innovations.png, scene.3Dscene and report.html.
