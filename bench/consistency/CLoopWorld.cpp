@@ -46,8 +46,8 @@ Eigen::Matrix3d motionCovariance(const TNoiseLevel& noise, const Eigen::Vector3d
 
 std::vector<TNoiseLevel> noiseLevels() {
     return {{"low", mrpt::DEG2RAD(0.5), 0.02},
-            {"medium", mrpt::DEG2RAD(1.7), 0.06},
-            {"high", mrpt::DEG2RAD(7.0), 0.25}};
+            {"medium", mrpt::DEG2RAD(1.2), 0.05},
+            {"high", mrpt::DEG2RAD(5.0), 0.2}};
 }
 
 CLoopWorld::CLoopWorld(int laps) {

@@ -17,12 +17,14 @@ Eigen::Index rowOf(std::size_t landmark) {
     return poseSize + 2 * static_cast<Eigen::Index>(landmark);
 }
 
-/// P H' of one measurement [n x 2].
+/// P H' of one measurement [n x 2]. P is symmetric: its rows lie together in memory, its columns
+/// do not.
 Eigen::MatrixX2d crossCovariance(const Eigen::Ref<const RowMatrix>& covariance,
                                  const TSighting& expected,
                                  Eigen::Index row) {
-    return covariance.leftCols<poseSize>() * expected.byPose.transpose() +
-           covariance.middleCols<2>(row) * expected.byLandmark.transpose();
+    return (expected.byPose * covariance.topRows<poseSize>() +
+            expected.byLandmark * covariance.middleRows<2>(row))
+        .transpose();
 }
 
 /// H X of one measurement [2 x columns of X].
@@ -49,19 +51,29 @@ void predict(TFilterState state, const Eigen::Vector3d& increment, const Eigen::
     P.bottomLeftCorner(others, poseSize) = P.topRightCorner(poseSize, others).transpose();
 }
 
+/* For a thousand landmarks this is the longest part of a step, and bound by memory: both products
+ * run along the rows. */
 Eigen::MatrixXd predictionCovariance(const Eigen::VectorXd& mean, const RowMatrix& covariance) {
     const Eigen::Index count = (mean.size() - poseSize) / 2;
     std::vector<TSighting> expected;
-    Eigen::MatrixXd cross(mean.size(), 2 * count);
-    for (Eigen::Index k = 0; k < count; ++k) {
-        const Eigen::Index row = rowOf(k);
-        expected.push_back(sighting(mean.head<poseSize>(), mean.segment<2>(row)));
-        cross.middleCols<2>(2 * k) = crossCovariance(covariance, expected.back(), row);
-    }
-    Eigen::MatrixXd result(2 * count, 2 * count);
     for (Eigen::Index k = 0; k < count; ++k)
-        result.middleRows<2>(2 * k) = projected(expected[k], cross, rowOf(k));
-    return 0.5 * (result + result.transpose());
+        expected.push_back(sighting(mean.head<poseSize>(), mean.segment<2>(rowOf(k))));
+    Eigen::MatrixXd result(2 * count, 2 * count);
+    RowMatrix cross(2, mean.size());  // H P of one landmark
+    for (Eigen::Index k = 0; k < count; ++k) {
+        cross.noalias() = expected[k].byPose * covariance.topRows<poseSize>() +
+                          expected[k].byLandmark * covariance.middleRows<2>(rowOf(k));
+        const Eigen::Matrix<double, 2, poseSize> byPose = cross.leftCols<poseSize>();
+        for (Eigen::Index j = 0; j <= k; ++j) {
+            const Eigen::Matrix2d both =
+                byPose * expected[j].byPose.transpose() +
+                Eigen::Matrix2d(cross.middleCols<2>(rowOf(j))) * expected[j].byLandmark.transpose();
+            result.block<2, 2>(2 * j, 2 * k) = both.transpose();
+            result.block<2, 2>(2 * k, 2 * j) = both;
+        }
+        result(2 * k, 2 * k + 1) = result(2 * k + 1, 2 * k);
+    }
+    return result;
 }
 
 void update(TFilterState state, const std::vector<TPairedMeasurement>& measurements) {
