@@ -77,6 +77,12 @@ void CEviD30::restart() {
     say({0x90, 0x38, 0xFF});
 }
 
+void CEviD30::turnTo(double pan, double tilt, double now) {
+    constexpr double atOnce = 1e9;
+    m_pan.runTo(pan * panCountsPerDegree, atOnce, now);
+    m_tilt.runTo(tilt * tiltCountsPerDegree, atOnce, now);
+}
+
 void CEviD30::handle(const TBytes& packet, double now) {
     const bool broadcast = packet[0] == 0x88;
     if (!broadcast && (m_address == 0 || packet[0] != 0x80 + m_address)) return;

@@ -44,6 +44,9 @@ class CEviD30 : public CEmulatedDevice {
     /// As after switching on in a chain: it forgets its address and reports a network change.
     void restart();
 
+    /// Somebody else turns it, as with its remote control: there it stands [deg], left and up.
+    void turnTo(double pan, double tilt, double now);
+
     const CMotor& pan() const { return m_pan; }
     const CMotor& tilt() const { return m_tilt; }
     const CMotor& zoom() const { return m_zoom; }
