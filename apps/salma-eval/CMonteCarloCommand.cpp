@@ -82,7 +82,8 @@ void printSuccess(std::ostream& out, const std::vector<TStudyRow>& rows) {
     out << std::left << std::setw(16) << "world" << std::setw(8) << "noise" << std::setw(6) << ""
         << std::setw(10) << "method" << std::right << std::setw(6) << "runs" << std::setw(8)
         << "failed" << std::setw(9) << "success" << std::setw(12) << "wrong loop" << std::setw(12)
-        << "precision" << std::setw(9) << "recall" << std::setw(16) << "median ATE [m]"
+        << "precision" << std::setw(9) << "recall" << std::setw(18) << "last-lap ATE [m]"
+        << std::setw(10) << "ms/step"
         << "\n"
         << std::fixed;
     for (const auto& row : rows)
@@ -91,7 +92,8 @@ void printSuccess(std::ostream& out, const std::vector<TStudyRow>& rows) {
             << std::setw(8) << row.failed << std::setw(9) << row.success.count << std::setw(12)
             << row.wrongLoop.count << std::setprecision(2) << std::setw(10)
             << 100 * row.precision.share() << " %" << std::setw(7) << 100 * row.recall.share()
-            << " %" << std::setprecision(3) << std::setw(16) << row.medianAteLastLap << "\n";
+            << " %" << std::setprecision(3) << std::setw(18) << row.medianAteLastLap
+            << std::setprecision(2) << std::setw(10) << 1000 * row.cpuPerStep << "\n";
 }
 
 }  // namespace
@@ -136,7 +138,7 @@ void CMonteCarloCommand::addOptions() {
     command.add_flag("--retry-failed", m_study.retryFailed, "make runs again that failed before");
     addPositive(command, "--max-ate-m", m_limits.maxAte, "over the last lap, for success");
     addPositive(command, "--door-spacing-m", m_limits.doorSpacing,
-                "final error beyond which the robot is lost");
+                "a robot that ends off by more than half of it is lost");
 }
 
 void CMonteCarloCommand::run(std::ostream& out) {

@@ -41,7 +41,8 @@ struct TRunScore {
 
     std::uint64_t steps{0};
     double ate{kNone};             //!< RMSE of position, whole path aligned in SE(2) [m].
-    double ateLastLap{kNone};      //!< Of the poses of the last lap, same alignment [m].
+    double ateLastLap{kNone};      //!< Of the last lap alone, aligned by itself [m].
+    double lastLapInPath{kNone};   //!< Of the same poses, aligned as the whole path [m].
     double ateOdometry{kNone};     //!< Of odometry alone, whole path [m].
     double rpePosition{kNone};     //!< RMSE over 1 m of the true path [m].
     double rpeHeading{kNone};      //!< The same [rad].
@@ -61,6 +62,7 @@ struct TRunScore {
         visit("steps", s.steps);
         visit("ate_m", s.ate);
         visit("ate_last_lap_m", s.ateLastLap);
+        visit("last_lap_in_path_m", s.lastLapInPath);
         visit("ate_odometry_m", s.ateOdometry);
         visit("rpe_1m_m", s.rpePosition);
         visit("rpe_1m_rad", s.rpeHeading);

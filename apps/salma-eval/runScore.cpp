@@ -106,8 +106,11 @@ TRunScore scoreRun(const slam::TRunRecord& record, const TTruth& truth, int laps
     TRunScore s;
     s.steps = record.trajectory.size();
     s.ate = figures.aligned.rmse;
-    s.ateLastLap = rmseSince(lastLapStart(*truth.path, laps), estimate, figures.T_ref_est,
-                             *truth.path, options.maxGap);
+    const double lastLap = lastLapStart(*truth.path, laps);
+    const auto first = std::lower_bound(estimate.begin(), estimate.end(), lastLap,
+                                        [](const auto& p, double time) { return p.time < time; });
+    s.ateLastLap = score.compare(*truth.path, viz::TTrajectory(first, estimate.end())).aligned.rmse;
+    s.lastLapInPath = rmseSince(lastLap, estimate, figures.T_ref_est, *truth.path, options.maxGap);
     s.ateOdometry = score.compare(*truth.path, viz::odometryPath(record)).aligned.rmse;
     s.rpePosition = figures.perMetres.translation.rmse;
     s.rpeHeading = figures.perMetres.rotation.rmse;

@@ -105,6 +105,7 @@ void addConsistency(const Results& done, TStudyRow& row) {
 void addErrors(const Results& all, const Results& done, TStudyRow& row) {
     row.ate = mean(done, [](const auto& s) { return s.ate; });
     row.ateLastLap = mean(done, [](const auto& s) { return s.ateLastLap; });
+    row.lastLapInPath = mean(done, [](const auto& s) { return s.lastLapInPath; });
     row.ateOdometry = mean(done, [](const auto& s) { return s.ateOdometry; });
     row.rpePosition = mean(done, [](const auto& s) { return s.rpePosition; });
     for (const auto* result : all) {
@@ -125,16 +126,21 @@ TStudyRow figuresOf(const Results& all, const TStudyLimits& limits) {
                  [](const auto* result) { return !result->failed(); });
     row.failed = all.size() - done.size();
     row.success = share(all, [&](const TRunResult& result) {
-        return !result.failed() && result.score.ateLastLap < limits.maxAte;
+        return !result.failed() && succeeded(result.score, limits);
     });
     row.wrongLoop = share(done, [&](const auto& r) { return closedWrongLoop(r.score, limits); });
-    row.lost =
-        share(done, [&](const auto& r) { return !(r.score.finalError <= limits.doorSpacing); });
+    row.lost = share(done, [&](const auto& r) { return endedLost(r.score, limits); });
     row.noWrongPoster = share(done, [](const auto& r) { return r.score.salient.wrong == 0; });
     addAssociation(done, row);
     addErrors(all, done, row);
     addConsistency(done, row);
-    for (const auto* result : done) row.relocations += result->score.relocations;
+    double seconds = 0, steps = 0;
+    for (const auto* result : done) {
+        row.relocations += result->score.relocations;
+        seconds += result->mappingSeconds;
+        steps += static_cast<double>(result->score.steps);
+    }
+    row.cpuPerStep = seconds / steps;  // NaN without steps
     return row;
 }
 
@@ -172,9 +178,17 @@ class CGroups {
 
 }  // namespace
 
+bool endedLost(const TRunScore& score, const TStudyLimits& limits) {
+    return !(score.finalError <= limits.doorSpacing / 2);
+}
+
+bool succeeded(const TRunScore& score, const TStudyLimits& limits) {
+    return score.ateLastLap < limits.maxAte && !endedLost(score, limits);
+}
+
 bool closedWrongLoop(const TRunScore& score, const TStudyLimits& limits) {
     return score.repeatedWrongPairs > 0 || !(score.maxJump <= limits.doorSpacing / 2) ||
-           !(score.finalError <= limits.doorSpacing);
+           endedLost(score, limits);
 }
 
 std::vector<TStudyRow> studyTable(const std::vector<TRunResult>& results,

@@ -14,8 +14,14 @@ namespace salma::apps {
 /// What counts as success, and as a wrong loop.
 struct TStudyLimits {
     double maxAte{0.3};       //!< Of the last lap, for success [m].
-    double doorSpacing{2.5};  //!< A final error beyond it means that the robot is lost [m].
+    double doorSpacing{2.5};  //!< A robot that is off by more than half of it is lost [m].
 };
+
+/// Whether the robot ended nearer to the next door than to its own. Source: own.
+bool endedLost(const TRunScore& score, const TStudyLimits& limits);
+
+/// Whether the last lap is right in itself, and where the map of the first one has it.
+bool succeeded(const TRunScore& score, const TStudyLimits& limits);
 
 /// Whether a run ended with its map on a wrong place. Source: own.
 bool closedWrongLoop(const TRunScore& score, const TStudyLimits& limits);
@@ -38,11 +44,12 @@ struct TStudyRow {
     TMean wrongSalient, wrongCorners;  //!< Wrong pairings of a run.
     TMean salientMade, salientTrue, cornersMade, cornersTrue;
     TMean salientDuplicates, cornerDuplicates;
-    TMean ate, ateLastLap, ateOdometry, rpePosition;  //!< [m]
-    double medianAteLastLap{0};                       //!< [m]
+    TMean ate, ateLastLap, lastLapInPath, ateOdometry, rpePosition;  //!< [m]
+    double medianAteLastLap{0};                                      //!< [m]
     TMean anees;  //!< Of the runs' mean NEES / 3. Steps of a run are not independent: runs are.
     TProportion neesInside;  //!< Places of the course whose ANEES is inside its 95 % region.
     std::size_t relocations{0};
+    double cpuPerStep{0};  //!< Processor time of association and filter [s]; not in the tables.
     std::vector<TNeesPoint> neesCurve;  //!< [TPoseConsistency::kParts]
     std::vector<double> lastLapErrors;  //!< ATE of the last lap, increasing; failed runs: infinity.
 
@@ -76,6 +83,7 @@ struct TStudyRow {
         visit("ate_m", s.ate);
         visit("ate_last_lap_m", s.ateLastLap);
         visit("ate_last_lap_median_m", s.medianAteLastLap);
+        visit("last_lap_in_path_m", s.lastLapInPath);
         visit("ate_odometry_m", s.ateOdometry);
         visit("rpe_1m_m", s.rpePosition);
         visit("anees", s.anees);

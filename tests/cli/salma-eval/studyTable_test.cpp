@@ -105,10 +105,21 @@ TEST(StudyTable, AWrongLoopShowsInPairingsJumpsOrTheEnd) {
     wrong.maxJump = 1.3;
     EXPECT_TRUE(closedWrongLoop(wrong, limits));
     wrong = score;
-    wrong.finalError = 2.6;
+    wrong.finalError = 1.3;
     EXPECT_TRUE(closedWrongLoop(wrong, limits));
     wrong.finalError = TRunScore::kNone;
     EXPECT_TRUE(closedWrongLoop(wrong, limits)) << "what is not known is not right";
+}
+
+TEST(StudyTable, ALapThatIsRightInItselfButOnAWrongPlaceIsNoSuccess) {
+    TRunScore score = madeResult("a", "low", 0.1).score;
+    EXPECT_TRUE(succeeded(score, {}));
+    score.finalError = 2.5;
+    EXPECT_FALSE(succeeded(score, {}));
+    score = madeResult("a", "low", 0.31).score;
+    EXPECT_FALSE(succeeded(score, {}));
+    score.ateLastLap = TRunScore::kNone;
+    EXPECT_FALSE(succeeded(score, {}));
 }
 
 TEST(StudyFiles, HoldAsManyCellsAsColumns) {
