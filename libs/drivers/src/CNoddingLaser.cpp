@@ -83,7 +83,7 @@ void CNoddingLaser::listen() {
                 if (sentence.name != "NOD" || sentence.values.size() != 1) continue;
                 remember(sentence.began - m_options.mountLatency,
                          mrpt::DEG2RAD(sentence.values[0]));
-                if (wasLost) MRPT_LOG_WARN_STREAM("mount found again at " << m_options.mountPort);
+                if (wasLost) tell("mount found again at " + m_options.mountPort);
                 wasLost = false;
                 reconnection.found();
             }
@@ -91,7 +91,7 @@ void CNoddingLaser::listen() {
             mount.reset();
             wasLost = true;
             if (reconnection.lost(error.what(), m_options.laser.reconnectTime))
-                MRPT_LOG_ERROR_STREAM("mount lost: " << error.what());
+                tell(std::string("mount lost: ") + error.what());
         }
     }
 }
@@ -101,7 +101,22 @@ void CNoddingLaser::remember(double time, double elevation) {
     m_elevations.add(time, elevation);
 }
 
+void CNoddingLaser::tell(const std::string& news) {
+    const std::lock_guard<std::mutex> lock(m_mutex);
+    m_news.push_back(news);
+}
+
+void CNoddingLaser::logNews() {
+    std::vector<std::string> news;
+    {
+        const std::lock_guard<std::mutex> lock(m_mutex);
+        news.swap(m_news);
+    }
+    for (const auto& line : news) MRPT_LOG_WARN_STREAM(line);
+}
+
 void CNoddingLaser::doProcess() {
+    logNews();
     m_laser.doProcess();
     for (const auto& entry : m_laser.getObservations())
         m_waiting.push_back(std::dynamic_pointer_cast<Scan>(entry.second));

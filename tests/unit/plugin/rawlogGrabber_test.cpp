@@ -3,7 +3,10 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <mrpt/core/bits_math.h>
+#include <mrpt/maps/CPointsMap.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CRawlog.h>
 #include <salma/drivers/CViscaCamera.h>
 #include <salma/observations/CLogReader.h>
@@ -13,12 +16,14 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <future>
 
 #include "CEviD30.h"
 #include "CProcess.h"
 #include "CSickLms200.h"
+#include "CTalker.h"
 #include "CTemporaryFolder.h"
 #include "stockProgram.h"
 
@@ -221,6 +226,55 @@ TEST_F(RawlogGrabber, WritesTheScansOfALaserAndGoesOnAfterTheCableWasOut) {
     }
     EXPECT_GE(earlier, 20);
     EXPECT_GE(later, 20);
+}
+
+/// With the base beside it: all that drivers has, in the stock program.
+TEST_F(RawlogGrabber, WritesTheSweepsOfANoddingLaserAndTheOdometryOfABase) {
+    test::CSickLms200 laser(
+        [](const test::TLmsView& view, double) { return std::vector<double>(view.beams(), 2); });
+    test::CTalker mount("NOD", 50, [](double now) {  // from -20 to 40 deg and back in two seconds
+        const double phase = std::fmod(now, 2.0);
+        return std::vector<double>{phase < 1 ? -20 + 60 * phase : 100 - 60 * phase};
+    });
+    test::CTalker base("ODO", 20, [](double) { return std::vector<double>{1, 2, 90}; });
+    const std::string ports = (m_folder / "").string();
+    test::CEmulator laserEnd(laser, ports + "laser"), mountEnd(mount, ports + "mount"),
+        baseEnd(base, ports + "base");
+    grabSections(
+        "[NODDING]\ndriver = CNoddingLaser\nprocess_rate = 500\nsensorLabel = NODDING\n"
+        "COM_baudRate = 500000\nresolution = 100\nCOM_port_LIN = " +
+        ports + "laser\nmount_port = " + ports +
+        "mount\n[BASE]\ndriver = CWheelOdometry\nprocess_rate = 200\nsensorLabel = BASE\n"
+        "port = " +
+        ports + "base\n");
+    const auto scans = [&] {
+        int streamed = 0;
+        laserEnd.locked([&] { streamed = laser.scans(); });
+        return streamed;
+    };
+    while (scans() < 450 &&
+           m_grabber.wait_for(std::chrono::milliseconds(5)) != std::future_status::ready) {
+    }
+    const auto result = end();
+    EXPECT_EQ(result.exitCode, 0) << result.output;
+    mrpt::obs::CRawlog log;
+    ASSERT_TRUE(log.loadFromRawLogFile(logFile())) << result.output;
+    std::size_t clouds = 0, odometry = 0;
+    for (std::size_t i = 0; i < log.size(); ++i) {
+        const auto record = log.getAsObservation(i);
+        if (const auto cloud =
+                std::dynamic_pointer_cast<mrpt::obs::CObservationPointCloud>(record)) {
+            ++clouds;
+            EXPECT_EQ(cloud->sensorLabel, "NODDING_CLOUD");
+            EXPECT_GE(cloud->pointcloud->size(), 181U * 20);
+        } else if (const auto odo =
+                       std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(record)) {
+            ++odometry;
+            EXPECT_NEAR(odo->odometry.y(), 2, 1e-9);
+        }
+    }
+    EXPECT_GE(clouds, 2U) << result.output;
+    EXPECT_GE(odometry, 20U) << result.output;
 }
 
 TEST_F(RawlogGrabber, SaysWhichLaserIsNotThere) {

@@ -11,6 +11,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace salma::drivers {
 
@@ -58,6 +59,8 @@ class CNoddingLaser : public mrpt::system::COutputLogger, public mrpt::hwdrivers
     void findMount();
     void listen();
     void remember(double time, double elevation);
+    void tell(const std::string& news);
+    void logNews();
     void placeScans();
     bool place(const Scan::Ptr& scan, const CElevationHistory& elevations);
     mrpt::poses::CPose3D mirrorPose(double elevation) const;
@@ -68,8 +71,9 @@ class CNoddingLaser : public mrpt::system::COutputLogger, public mrpt::hwdrivers
     std::deque<Scan::Ptr> m_waiting;  //!< For an elevation that is later than they.
     CNoddingSweep m_sweep;
     TNoddingCounts m_counts;
-    std::mutex m_mutex;  //!< Of m_elevations.
+    std::mutex m_mutex;  //!< Of what the listener writes: m_elevations, m_news.
     CElevationHistory m_elevations;
+    std::vector<std::string> m_news;  //!< To be logged by doProcess(): a logger has one thread.
     std::atomic<bool> m_stop{false};
     std::thread m_listener;
 };
