@@ -10,7 +10,7 @@ SALMA_PACKAGES=(
     g++ cmake ninja-build ccache
     libmrpt-dev libopencv-dev libeigen3-dev libboost-dev libboost-iostreams-dev libsqlitecpp-dev libsqlite3-dev zlib1g-dev
     libcli11-dev nlohmann-json3-dev gnuplot-nox fonts-dejavu-core
-    libhwy-dev libnanoflann-dev libceres-dev libgtest-dev libbenchmark-dev mrpt-apps mrpt-common
+    libhwy-dev libnanoflann-dev libceres-dev libv4l-dev libgtest-dev libbenchmark-dev mrpt-apps mrpt-common
 )
 
 say() { printf '== %s\n' "$*"; }

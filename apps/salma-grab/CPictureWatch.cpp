@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CPictureWatch.h"
 
-#include <algorithm>
-#include <array>
+#include <pictureFault.h>
+
 #include <chrono>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <utility>
@@ -17,16 +15,6 @@ using mrpt::obs::CObservationImage;
 
 namespace salma::apps {
 namespace {
-
-constexpr double kSame = 2;    // grey values that coding may add to an even area
-constexpr double kBlack = 24;  // brightest pixel of a black picture
-constexpr int kLeastCut = 8;   // 1/8 of the rows without content: the rest did not come
-
-bool isEven(const cv::Mat& grey) {
-    double least = 0, most = 0;
-    cv::minMaxLoc(grey, &least, &most);
-    return most - least <= kSame;
-}
 
 std::string text(const cv::Size& size) {
     return std::to_string(size.width) + " x " + std::to_string(size.height);
@@ -51,18 +39,6 @@ cv::Mat greyOf(const CObservationImage& picture, const std::string& file) {
 }
 
 }  // namespace
-
-std::string faultOf(const cv::Mat& grey) {
-    double brightest = 0;
-    cv::minMaxLoc(grey, nullptr, &brightest);
-    if (brightest < kBlack) return "black";
-    if (isEven(grey)) return "of one brightness all over";
-    int rows = grey.rows;  // without those of one value at the lower edge
-    while (rows > 0 && isEven(grey.rowRange(rows - 1, grey.rows))) --rows;
-    const int missing = grey.rows - rows;
-    if (missing < std::max(2, grey.rows / kLeastCut)) return "";
-    return "cut: its lower part is missing";
-}
 
 CPictureWatch::CPictureWatch(std::string imagesFolder, std::function<void(const std::string&)> tell)
     : m_imagesFolder(std::move(imagesFolder)), m_tell(std::move(tell)) {}

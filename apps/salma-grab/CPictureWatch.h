@@ -6,14 +6,10 @@
 #include <cstddef>
 #include <functional>
 #include <map>
-#include <opencv2/core/mat.hpp>
+#include <opencv2/core/types.hpp>
 #include <string>
 
 namespace salma::apps {
-
-/** What is wrong with a picture to look at: "black", "of one brightness", "cut: ..."; "" if
- * nothing. \param grey CV_8UC1 */
-std::string faultOf(const cv::Mat& grey);
 
 /** Looks for pictures that are of no use while they are recorded.
  *

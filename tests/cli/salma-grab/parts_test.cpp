@@ -13,6 +13,7 @@
 #include "CPendingRecords.h"
 #include "CPictureWatch.h"
 #include "CTemporaryFolder.h"
+#include "pictureFault.h"
 
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
@@ -140,9 +141,17 @@ TEST(CPictureWatchFaults, ToldByTheirContent) {
     cv::Mat cut = good.clone();
     cut.rowRange(80, 120) = 128;
     EXPECT_EQ(faultOf(cut), "cut: its lower part is missing");
+    for (int row = 80; row < 120; ++row) good.row(79).copyTo(cut.row(row));
+    EXPECT_EQ(faultOf(cut), "cut: its lower part is missing");
+    cv::Mat bars = good.clone();
+    for (int row = 1; row < 120; ++row) good.row(0).copyTo(bars.row(row));
+    EXPECT_EQ(faultOf(bars), "");
     cv::Mat shadow = good.clone();
-    shadow.rowRange(112, 120) = 0;  // a dark bumper is no fault
+    shadow.rowRange(80, 120) = 0;  // a dark floor is no fault
     EXPECT_EQ(faultOf(shadow), "");
+    cv::Mat snow = good.clone();
+    snow.rowRange(80, 120) = 255;  // nor is a floor that is too bright
+    EXPECT_EQ(faultOf(snow), "");
     EXPECT_EQ(faultOf(cv::Mat(1, 1, CV_8UC1, cv::Scalar(200))), "of one brightness all over");
 }
 
