@@ -40,7 +40,6 @@ double CCaptureDisplay::rate(const CSensorThread& sensor,
                              std::size_t records,
                              TSteady::time_point now) {
     auto& counts = m_counts[&sensor];
-    if (counts.empty()) counts.push_back({m_start, 0});
     counts.push_back({now, records});
     while (counts.size() > 2 && now - counts[1].time > kRateWindow) counts.pop_front();
     const double seconds = std::chrono::duration<double>(now - counts.front().time).count();

@@ -12,6 +12,7 @@
 #include <filesystem>
 
 #include "emulatedRobot.h"
+#include "stockProgram.h"
 
 namespace fs = std::filesystem;
 
@@ -87,8 +88,9 @@ TEST_F(SalmaGrab, StockProgramsReadEveryObject) {
     const auto beside = test::runProcess(
         {"sh", "-c", "cd " + m_folder.path().string() + " && rawlog-edit --info -i x.rawlog"});
     EXPECT_TRUE(contains(beside.output, "Found external storage directory")) << beside.output;
-    const auto head =
-        test::runProcess({"rawlog-edit", "-p", SALMA_PLUGIN, "--info", "-i", companion()}).output;
+    auto withPlugin = test::stockProgram("rawlog-edit");
+    withPlugin.insert(withPlugin.end(), {"-p", SALMA_PLUGIN, "--info", "-i", companion()});
+    const auto head = test::runProcess(withPlugin).output;
     EXPECT_TRUE(contains(
         head, "Overall number of objects         : " + std::to_string(given("HEAD").size()) + "\n"))
         << head;
