@@ -68,7 +68,7 @@ TBankedSighting tied(const CSimulator& drive, double time, const TPatch& patch) 
     const auto camera = drive.cameraPose(time);
     const Vector3d from(camera.x(), camera.y(), camera.z());
     const Vector3d ray = Vector3d(inWorld.x(), inWorld.y(), inWorld.z()) - from;
-    const double distance = drive.world().distanceTo(from, ray.normalized());
+    const double distance = drive.worldAt(time).distanceTo(from, ray.normalized());
     return {patch, from + distance * ray.normalized(), ray.norm() / distance};
 }
 
@@ -76,6 +76,7 @@ TBankedSighting tied(const CSimulator& drive, double time, const TPatch& patch) 
 
 CBankBuilder::CBankBuilder(const TWorld& world, const TBankOptions& options)
     : m_world(world), m_options(options), m_frontEnd(options.seeing) {
+    m_world.people.count = 0;  // each run has others, and they are drawn over the views
     if (world.head.kind() == EHeadMode::attend)
         throw std::invalid_argument(
             world.file.string() +
@@ -87,7 +88,8 @@ CBankBuilder::CBankBuilder(const TWorld& world, const TBankOptions& options)
 
 std::string CBankBuilder::key() const {
     TWorld world = m_world;
-    world.odometry = {};  // pictures do not depend on it
+    world.odometry.level = EOdometryNoise::medium;  // whatever the run's, see wallsInView()
+    world.people = {};
     return "draws = " + std::to_string(m_options.draws) + "\n" + simulator::asIni(world) +
            texturesOf(world) + asIni(m_options.seeing) + laser::TLineOptions().asIni("lines");
 }
@@ -118,7 +120,7 @@ std::vector<std::vector<TBankedView>> CBankBuilder::build(
 TBankedView CBankBuilder::look(const CSimulator& drive, std::size_t picture) const {
     const double time = drive.pictureTime(picture);
     TBankedView result{drive.truePose(time), drive.pan(time), {}};
-    const auto walls = wallsInView(drive, time, m_frontEnd.options().maxSkew);
+    const auto walls = wallsInView(drive, picture, m_frontEnd.options().maxSkew);
     if (!walls) return result;
     landmarks::TView view;
     view.grey = throughJpeg(drive.picture(picture), m_world.camera.jpegQuality);

@@ -44,6 +44,21 @@ TPatch stretched(TPatch patch, double factor) {
     return patch;
 }
 
+/// True if somebody hides part of what the patch shows.
+bool isHidden(const CSimulator& drive, double time, const TBankedSighting& sighting) {
+    const auto people = drive.people().around(time);
+    const auto camera = drive.cameraPose(time);
+    const double yaw = drive.truePose(time).phi + sighting.patch.pose.mean.yaw();
+    const Vector3d along(std::cos(yaw), std::sin(yaw), 0);
+    for (const double u : {-0.5, 0.0, 0.5})
+        for (const double v : {-0.5, 0.0, 0.5}) {
+            const Vector3d point = sighting.centre + u * sighting.patch.width * along +
+                                   v * sighting.patch.height * Vector3d::UnitZ();
+            if (drive.people().hide(people, position(camera), point)) return true;
+        }
+    return false;
+}
+
 /// Where a ray meets a wall, in the wall's coordinates.
 struct TMeeting {
     const laser::TLine* wall;
@@ -77,7 +92,10 @@ std::optional<TMeeting> meet(const laser::TLine& wall,
 
 }  // namespace
 
-std::optional<TWallsInView> wallsInView(const CSimulator& drive, double time, double maxSkew) {
+std::optional<TWallsInView> wallsInView(const CSimulator& drive,
+                                        std::size_t index,
+                                        double maxSkew) {
+    const double time = drive.pictureTime(index);
     const auto& times = drive.scanTimes();
     const auto nearest = std::min_element(times.begin(), times.end(), [time](double a, double b) {
         return std::abs(a - time) < std::abs(b - time);
@@ -86,9 +104,11 @@ std::optional<TWallsInView> wallsInView(const CSimulator& drive, double time, do
     TWallsInView seen;
     seen.scan = drive.scan(static_cast<std::size_t>(nearest - times.begin()));
     seen.lines = laser::CLineExtractor().extract(seen.scan);
-    const mrpt::poses::CPose2D moved =
-        mrpt::poses::CPose2D(drive.truePose(*nearest)) - mrpt::poses::CPose2D(drive.truePose(time));
-    for (const auto& line : seen.lines.lines) seen.walls.push_back(transformed(line, moved));
+    const mrpt::poses::CPose2D between(drive.wheelMotion(
+        std::min(time, *nearest), std::max(time, *nearest), static_cast<std::uint32_t>(index)));
+    const auto T_picture_scan = time < *nearest ? between : mrpt::poses::CPose2D() - between;
+    for (const auto& line : seen.lines.lines)
+        seen.walls.push_back(transformed(line, T_picture_scan));
     return seen;
 }
 
@@ -115,7 +135,7 @@ TBankedView CBankedFrontEnd::drawn(const CSimulator& drive, std::size_t index) c
 CObservationSalientLandmarks::Ptr CBankedFrontEnd::look(const CSimulator& drive,
                                                         std::size_t index) const {
     const double time = drive.pictureTime(index);
-    const auto seen = wallsInView(drive, time, m_frontEnd.options().maxSkew);
+    const auto seen = wallsInView(drive, index, m_frontEnd.options().maxSkew);
     if (!seen) return nullptr;
     auto record = CObservationSalientLandmarks::Create();
     record->cameraPose = drive.cameraOnRobot(time);
@@ -147,7 +167,7 @@ std::optional<TPatch> CBankedFrontEnd::moved(const CSimulator& drive,
             best = here;
         }
     }
-    if (!best) return std::nullopt;
+    if (!best || isHidden(drive, time, sighting)) return std::nullopt;
     const CWallView view(drive.camera().parameters(), T_r_c, *best->wall);
     if (!view.toPixel(best->u, best->v)) return std::nullopt;
     TPatch patch =

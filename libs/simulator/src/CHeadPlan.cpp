@@ -20,6 +20,13 @@ CHeadPlan::CHeadPlan(const THeadOptions& options,
                      const CPath& path,
                      const CWorld& world,
                      std::uint32_t seed)
+    : CHeadPlan(
+          options, path, [&world](double) -> const CWorld& { return world; }, seed) {}
+
+CHeadPlan::CHeadPlan(const THeadOptions& options,
+                     const CPath& path,
+                     const WorldAt& world,
+                     std::uint32_t seed)
     : m_options(options) {
     m_options.validate();
     const bool fixed = m_options.kind() == EHeadMode::fixed;
@@ -55,13 +62,13 @@ double CHeadPlan::nextStop() {
 }
 
 std::optional<double> CHeadPlan::target(const CPath& path,
-                                        const CWorld& world,
+                                        const WorldAt& world,
                                         double time,
                                         double pan) const {
     std::optional<double> found;
     double arrival = time;
     for (int i = 0; i < 3; ++i) {  // the robot drives on while the head turns
-        found = nearestPoster(path, world, arrival + m_options.settle);
+        found = nearestPoster(path, world(arrival), arrival + m_options.settle);
         if (!found) break;
         arrival = time + std::abs(*found - pan) / m_options.speed;
     }

@@ -49,6 +49,12 @@ CLaserModel::CLaserModel(const TLaserOptions& options,
     m_options.validate();
 }
 
+CLaserModel CLaserModel::with(const std::vector<TSegment>& obstacles) const {
+    CLaserModel model = *this;
+    model.m_segments.insert(model.m_segments.end(), obstacles.begin(), obstacles.end());
+    return model;
+}
+
 TPose2D CLaserModel::laserPose(const TPose2D& T_w_r) const {
     return {T_w_r.x + m_options.x * std::cos(T_w_r.phi),
             T_w_r.y + m_options.x * std::sin(T_w_r.phi), T_w_r.phi};
@@ -121,9 +127,9 @@ mrpt::obs::CObservation2DRangeScan CLaserModel::scan(const TPose2D& T_w_r,
     scan.rightToLeft = true;
     scan.maxRange = static_cast<float>(m_options.maxRange());
     scan.beamAperture = static_cast<float>(m_options.beamWidth);
+    const double stated = m_options.statedNoise > 0 ? m_options.statedNoise : m_options.noise;
     // noise of the range and of its rounding; the run's offset is not noise
-    scan.stdError =
-        static_cast<float>(std::hypot(m_options.noise, m_options.quantum() / std::sqrt(12.0)));
+    scan.stdError = static_cast<float>(std::hypot(stated, m_options.quantum() / std::sqrt(12.0)));
     scan.resizeScan(hits.size());
     for (std::size_t i = 0; i < hits.size(); ++i) {
         double range = hits[i].range;

@@ -11,7 +11,9 @@ namespace salma::simulator {
 using mrpt::math::TPose2D;
 
 COdometryModel::COdometryModel(const TOdometryOptions& options, std::uint32_t seed)
-    : m_options(options), m_random(std::make_unique<CRandom>(seed, "wheels", 0)) {
+    : m_options(options),
+      m_random(std::make_unique<CRandom>(seed, "wheels", 0)),
+      m_slips(std::make_unique<CRandom>(seed, "slips", 0)) {
     m_options.validate();
     CRandom systematic(seed, "wheels systematic", 0);
     m_scale = systematic.normal(m_options.factor() * m_options.scaleSigma);
@@ -31,10 +33,15 @@ TPose2D COdometryModel::next(const TPose2D& T_w_r) {
     const double forward = c * dx + s * dy, sideways = -s * dx + c * dy;
     const double turn = mrpt::math::wrapToPi(T_w_r.phi - m_last->phi);
     const double d = std::hypot(forward, sideways), k = m_options.factor();
-    const double seenForward =
-        forward * (1 + m_scale) + m_random->normal(k * m_options.distanceSigma * std::sqrt(d));
+    double slip = 0, slipTurn = 0;
+    if (m_options.slipsPerMetre > 0 && m_slips->unit() < m_options.slipsPerMetre * d) {
+        slip = m_slips->normal(k * m_options.slip);
+        slipTurn = m_slips->normal(k * m_options.slipTurn);
+    }
+    const double seenForward = forward * (1 + m_scale) + slip +
+                               m_random->normal(k * m_options.distanceSigma * std::sqrt(d));
     const double seenSideways = sideways * (1 + m_scale);
-    const double seenTurn = turn * (1 + m_turnScale) + m_drift * d +
+    const double seenTurn = turn * (1 + m_turnScale) + m_drift * d + slipTurn +
                             m_random->normal(k * m_options.headingSigma * std::sqrt(d)) +
                             m_random->normal(k * m_options.turnSigma * std::sqrt(std::abs(turn)));
     const double co = std::cos(m_pose.phi), so = std::sin(m_pose.phi);

@@ -56,8 +56,11 @@ void CPath::addPieces(const std::vector<TPoint2D>& points) {
     const std::size_t corners = m_options.closed ? n : n - 2;  // after the edge that leads there
     TPose2D at(points[0].x, points[0].y, direction(points[0], points[1]));
     double firstTangent = 0;
+    std::size_t way = 0;  // that the piece belongs to; an arc to the way after it
     const auto add = [&](double length, double curvature) {
-        m_pieces.push_back({m_lapLength, length, curvature, at});
+        const int floor =
+            m_options.floors.empty() ? 1 : static_cast<int>(m_options.floors[way % n]);
+        m_pieces.push_back({m_lapLength, length, curvature, at, floor});
         at = advance(at, curvature, length);
         m_lapLength += length;
     };
@@ -75,6 +78,7 @@ void CPath::addPieces(const std::vector<TPoint2D>& points) {
         const double straight = (corner - points[i - 1]).norm() - before - tangent;
         if (!(straight >= -1e-9)) fail(corner, "leaves no room for an arc of corner_radius_m");
         add(std::max(0.0, straight), 0);
+        ++way;
         if (std::abs(turn) > 1e-9)
             add(std::abs(turn) * m_options.cornerRadius,
                 std::copysign(1 / m_options.cornerRadius, turn));
@@ -124,6 +128,22 @@ double CPath::distance(double time) const {
     const double acceleration = (m_speeds[i + 1] - m_speeds[i]) / whole;
     const double part = t - m_times[i];
     return static_cast<double>(i) * kStep + part * (m_speeds[i] + acceleration * part / 2);
+}
+
+int CPath::lap(double time) const {
+    const auto lap = static_cast<int>(distance(time) / m_lapLength) + 1;
+    return std::min(lap, m_options.laps);
+}
+
+int CPath::floor(double time) const { return floorAt(std::fmod(distance(time), m_lapLength)); }
+
+TPose2D CPath::beside(double distance, double aside) const {
+    double lap = std::fmod(distance, m_lapLength);
+    if (lap < 0) lap += m_lapLength;
+    const TPiece& piece = pieceAt(lap);
+    const TPose2D middle = advance(piece.from, piece.curvature, lap - piece.start);
+    return {middle.x - aside * std::sin(middle.phi), middle.y + aside * std::cos(middle.phi),
+            middle.phi};
 }
 
 TPose2D CPath::pose(double time) const {

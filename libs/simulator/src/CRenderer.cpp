@@ -71,6 +71,7 @@ class CRenderer::CFrame {
                     const Vector2f& across,
                     const Vector2f& down) const;
     Vector2f onFace(const TView& view, const Vector2f& at) const;
+    float glare(const TFace& face, const Vector2f& at) const;
 
     const CRenderer& m_renderer;
     const std::vector<Vector2f>& m_directions;
@@ -163,6 +164,20 @@ Vector2f CRenderer::CFrame::onFace(const TView& view, const Vector2f& at) const 
     return {view.right.dot(r) * z - view.uShift, view.up.dot(r) * z - view.vShift};
 }
 
+/// Light of the lamps that a mirror at this place of a face would throw at the camera; white is 1.
+float CRenderer::CFrame::glare(const TFace& face, const Vector2f& at) const {
+    const Vector3d point = face.at(at.x(), at.y()), normal = face.normal();
+    const Vector3d ray = (point - m_position).normalized();
+    const Vector3d mirrored = ray - 2 * ray.dot(normal) * normal;
+    double sum = 0;
+    for (const auto& light : m_renderer.m_world.lights()) {
+        const Vector3d towards = (light.position - point).normalized();
+        const double angle = std::acos(std::clamp(mirrored.dot(towards), -1.0, 1.0));
+        sum += light.brightness * std::exp(-0.5 * angle * angle / (light.width * light.width));
+    }
+    return static_cast<float>(sum);
+}
+
 cv::Vec3f CRenderer::CFrame::shade(short id,
                                    const Vector2f& at,
                                    const Vector2f& across,
@@ -191,16 +206,24 @@ cv::Vec3f CRenderer::CFrame::shade(short id,
                              static_cast<float>(surface.texture->columns());
         colour = sample(*surface.texture, Vector2f(0, 0), Vector2f(width, height));
     }
+    float gleam = 0;
     for (auto d = decal == surface.decals.rend() ? surface.decals.begin() : decal.base() - 1;
          d != surface.decals.end(); ++d)
-        if (const float share = cover(*d); share > 0)
+        if (const float share = cover(*d); share > 0) {
+            gleam = gleam * (1 - share) + d->gloss * share;
             colour = colour * (1 - share) +
                      sample(*d->texture, Vector2f(float(d->u0), float(d->v0)),
                             Vector2f(float(d->u1 - d->u0), float(d->v1 - d->v0))) *
                          share;
+        }
     float light = static_cast<float>(view.face->brightness);
     if (view.face->upright) light *= 1 - 0.14f * std::exp(-p.y() / 0.25f);  // dim along the floor
-    return colour * light;
+    colour *= light;
+    if (gleam > 0) {
+        const float white = 255 * gleam * glare(*view.face, p);
+        colour += cv::Vec3f(white, white, white);
+    }
+    return colour;
 }
 
 Vector2f CRenderer::CFrame::step(int row, int column, int down, int across) const {

@@ -54,14 +54,19 @@ TSighting seenFrom(const TPose2D& T_w_r, const TTrueLandmark& landmark, double s
 CSimulator::CSimulator(const TWorld& description, const TSimulationOptions& options)
     : m_description(description),
       m_options(options),
-      m_world(description),
+      m_scenes(description),
       m_path(description.path, options.seed),
-      m_head(description.head, m_path, m_world, options.seed),
+      m_people(description.people, m_path, options.seed),
+      m_head(
+          description.head,
+          m_path,
+          [this](double time) -> const CWorld& { return worldAt(time); },
+          options.seed),
       m_camera(description.camera),
-      m_renderer(m_world, m_camera),
       m_sensor(description.camera, m_camera, options.seed),
-      m_laser(description.laser, m_world, options.seed),
-      m_scanTimes(instants(description.laser.rate, 0.37, description.laser.jitter, "scan times")) {
+      m_scanTimes(scanInstants()) {
+    for (const CWorld* world : m_scenes.all())
+        m_lasers.try_emplace(world, description.laser, *world, options.seed);
     if (!(m_options.threads >= 1))
         throw std::invalid_argument("threads = " + std::to_string(m_options.threads) +
                                     " is below 1");
@@ -89,9 +94,14 @@ double CSimulator::pictureTime(std::size_t index) const {
 
 std::string CSimulator::pictureName(std::size_t index) const {
     char name[64];  // as rawlog-grabber names external pictures
-    std::snprintf(name, sizeof name, "CAMERA_%.6f.jpg",
-                  stampOf(rounded(pictureTime(index) + m_description.camera.latency)));
+    std::snprintf(name, sizeof name, "CAMERA_%.6f.jpg", stampOf(pictureStamp(index)));
     return name;
+}
+
+double CSimulator::pictureStamp(std::size_t index) const {
+    const TCameraOptions& camera = m_description.camera;
+    const double jitter = CRandom(m_options.seed, "latency", index).normal(camera.latencyJitter);
+    return rounded(pictureTime(index) + camera.latency + jitter);
 }
 
 cv::Mat CSimulator::picture(std::size_t index) const {
@@ -103,7 +113,10 @@ cv::Mat CSimulator::picture(std::size_t index) const {
     TCameraMotion motion;
     motion.linear = Eigen::Vector3d(moved.x(), moved.y(), moved.z()) / (2 * h);
     motion.angular = Eigen::Vector3d(turn(2, 1), turn(0, 2), turn(1, 0)) / (2 * h);
-    return m_sensor.develop(m_renderer.render(cameraPose(time)), motion, index);
+    CWorld world = worldAt(time);
+    for (const auto& person : m_people.around(time))
+        world.addPerson(person.place, m_people.options(), person.clothes);
+    return m_sensor.develop(CRenderer(world, m_camera).render(cameraPose(time)), motion, index);
 }
 
 void CSimulator::writePicture(const std::filesystem::path& folder, std::size_t index) const {
@@ -127,16 +140,18 @@ std::vector<TSighting> CSimulator::sightingsInPicture(std::size_t index) const {
     const CPose3D T_w_c = cameraPose(time);
     const Eigen::Vector3d position(T_w_c.x(), T_w_c.y(), T_w_c.z());
     const Eigen::Matrix3d toCamera = T_w_c.getRotationMatrix().asEigen().transpose();
+    const CWorld& world = worldAt(time);
+    const auto people = m_people.around(time);
     std::vector<TSighting> seen;
-    for (const auto& landmark : m_world.landmarks()) {
+    for (const auto& landmark : world.landmarks()) {
         if (landmark.kind != ETruthKind::salient) continue;
         const Eigen::Vector3d normal(std::cos(landmark.yaw), std::sin(landmark.yaw), 0);
         const auto pixel = m_camera.project(toCamera * (landmark.centre - position));
         if (!pixel || !(normal.dot(position - landmark.centre) > 0) ||
-            !m_world.visible(position, landmark.centre))
+            !world.visible(position, landmark.centre) ||
+            m_people.hide(people, position, landmark.centre))
             continue;
-        seen.push_back(seenFrom(truePose(time), landmark,
-                                stampOf(rounded(time + m_description.camera.latency))));
+        seen.push_back(seenFrom(truePose(time), landmark, stampOf(pictureStamp(index))));
         seen.back().u = pixel->x();
         seen.back().v = pixel->y();
     }
@@ -148,13 +163,16 @@ std::vector<TSighting> CSimulator::sightingsInScan(double time) const {
     const TLaserOptions& laser = m_description.laser;
     const Eigen::Vector3d origin(robot.x + laser.x * std::cos(robot.phi),
                                  robot.y + laser.x * std::sin(robot.phi), laser.z);
+    const CWorld& world = worldAt(time);
+    const auto people = m_people.around(time);
     std::vector<TSighting> seen;
-    for (const auto& landmark : m_world.landmarks()) {
+    for (const auto& landmark : world.landmarks()) {
         if (landmark.kind != ETruthKind::corner) continue;
         const Eigen::Vector3d ray = landmark.centre - origin;
         const double bearing = mrpt::math::wrapToPi(std::atan2(ray.y(), ray.x()) - robot.phi);
         if (ray.norm() <= laser.maxRange() && std::abs(bearing) <= laser.apertureAngle() / 2 &&
-            m_world.visible(origin, landmark.centre))
+            world.visible(origin, landmark.centre) &&
+            !m_people.hide(people, origin, landmark.centre))
             seen.push_back(seenFrom(robot, landmark, stampOf(time)));
     }
     return seen;
@@ -175,11 +193,28 @@ std::vector<double> CSimulator::instants(double rate,
     }
 }
 
+/// Scans are taken but while the laser is silent.
+std::vector<double> CSimulator::scanInstants() const {
+    const TLaserOptions& laser = m_description.laser;
+    auto times = instants(laser.rate, 0.37, laser.jitter, "scan times");
+    if (!(laser.silentEvery > 0)) return times;
+    CRandom random(m_options.seed, "silences", 0);
+    for (double from = 0; from < m_path.duration();) {
+        from -= laser.silentEvery * std::log(1 - random.unit());  // exponential
+        const double to = from + laser.silent;
+        times.erase(std::remove_if(times.begin(), times.end(),
+                                   [&](double time) { return time > from && time < to; }),
+                    times.end());
+        from = to;
+    }
+    return times;
+}
+
 void CSimulator::addPictures(Records& records) const {
     for (std::size_t i = 0; i < pictureCount(); ++i) {
         auto record = mrpt::obs::CObservationImage::Create();
         record->sensorLabel = "CAMERA";
-        record->timestamp = clockTime(rounded(pictureTime(i) + m_description.camera.latency));
+        record->timestamp = clockTime(pictureStamp(i));
         record->cameraPose = headState(pictureTime(i)).cameraPose();
         record->cameraParams = m_camera.parameters();
         record->image.setExternalStorage(pictureName(i));
@@ -198,7 +233,14 @@ void CSimulator::addScans(Records& records, std::vector<TSighting>& sightings) c
 }
 
 mrpt::obs::CObservation2DRangeScan CSimulator::scan(std::size_t index) const {
-    return m_laser.scan(truePose(m_scanTimes.at(index)), index);
+    const double time = m_scanTimes.at(index);
+    const CLaserModel& laser = m_lasers.at(&worldAt(time));
+    const auto people = m_people.around(time);
+    if (people.empty()) return laser.scan(truePose(time), index);
+    CWorld crowd;
+    for (const auto& person : people)
+        crowd.addPerson(person.place, m_people.options(), person.clothes);
+    return laser.with(crowd.segmentsAt(m_description.laser.z)).scan(truePose(time), index);
 }
 
 CSimulator::Records CSimulator::sightingsFromBank() const {
@@ -208,7 +250,7 @@ CSimulator::Records CSimulator::sightingsFromBank() const {
         const auto record = frontEnd.look(*this, i);
         if (!record) continue;
         record->sensorLabel = "CAMERA_SALIENT";
-        record->timestamp = clockTime(rounded(pictureTime(i) + m_description.camera.latency));
+        record->timestamp = clockTime(pictureStamp(i));
         records.push_back(record);
     }
     return records;
@@ -238,6 +280,20 @@ void CSimulator::addOdometry(Records& records, TSimulationSummary& summary) cons
     }
     const auto moved = mrpt::poses::CPose2D(truth) - mrpt::poses::CPose2D(start);
     summary.odometryMiss = std::hypot(moved.x() - measured.x, moved.y() - measured.y);
+}
+
+TPose2D CSimulator::wheelMotion(double from, double to, std::uint32_t draw) const {
+    TOdometryOptions options = m_description.odometry;
+    options.level = EOdometryNoise::medium;
+    const auto seed = static_cast<std::uint32_t>(
+        CRandom(m_options.seed, "wheels at pictures", draw).bits() & 0xFFFFFFFF);
+    COdometryModel model(options, seed);
+    TPose2D motion = model.next(truePose(from));
+    for (double time = from; time < to;) {
+        time = std::min(time + 1 / options.rate, to);
+        motion = model.next(truePose(time));
+    }
+    return motion;
 }
 
 TSimulationSummary CSimulator::run(const std::filesystem::path& folder,
@@ -273,12 +329,12 @@ TSimulationSummary CSimulator::run(const std::filesystem::path& folder,
 
     if (!m_options.bank && m_options.pictures) writePictures(file("_Images"), onPicture);
     writeTrajectory(file(".gt.tum"), truth);
-    writeLandmarks(file(".landmarks.csv"), m_world.landmarks());
+    writeLandmarks(file(".landmarks.csv"), m_scenes.landmarks());
     writeSightings(file(".sightings.csv"), sightings);
     writeRawlog(file(".salient.rawlog"), std::move(companion));
     writeRawlog(file(".rawlog"), std::move(records));
     summary.duration = m_path.duration();
-    summary.laserOffset = m_laser.offset();
+    summary.laserOffset = m_lasers.begin()->second.offset();
     return summary;
 }
 

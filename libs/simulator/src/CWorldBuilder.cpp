@@ -4,10 +4,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
-#include <stdexcept>
-
-#include "textures.h"
 
 namespace salma::simulator {
 
@@ -33,36 +29,34 @@ std::shared_ptr<const CMipMap> plainColour(const cv::Scalar& colour) {
 
 }  // namespace
 
-CWorldBuilder::CWorldBuilder(const TWorld& description, CWorld& world)
-    : m_description(description), m_world(world) {}
+CWorldBuilder::CWorldBuilder(const TScene& scene,
+                             CTextureStore& textures,
+                             CLandmarkRegister& landmarks,
+                             CWorld& world)
+    : m_description(scene.description),
+      m_lap(scene.lap),
+      m_floor(scene.floor),
+      m_textures(textures),
+      m_register(landmarks),
+      m_world(world) {}
 
 void CWorldBuilder::build() {
     addFloorAndCeiling();
-    for (const auto& wall : m_description.walls) addWall(wall);
-    for (const auto& box : m_description.boxes) addBox(box);
+    for (const auto& wall : m_description.walls)
+        if (wall.floor == m_floor) addWall(wall);
+    for (const auto& box : m_description.boxes)
+        if (box.floor == m_floor) addBox(box);
+    for (const auto& lamp : m_description.lamps)
+        if (lamp.floor == m_floor)
+            m_world.m_lights.push_back({{lamp.position[0], lamp.position[1], lamp.position[2]},
+                                        lamp.brightness,
+                                        lamp.width});
     m_segments = m_world.segmentsAt(m_description.laser.z);
     addCorners();
 }
 
-const CWorldBuilder::TTexture& CWorldBuilder::texture(const std::string& name, bool repeats) {
-    TTexture& found = m_textures[{name, repeats}];
-    if (found.map) return found;
-    cv::Mat picture;
-    if (isBuiltInTexture(name)) {
-        const TBuiltInTexture painted = paintTexture(name);
-        picture = painted.picture;
-        found.width = painted.width;
-    } else {
-        const auto file = m_description.file.parent_path() / name;
-        picture = cv::imread(file.string(), cv::IMREAD_COLOR);
-        if (picture.empty()) throw std::runtime_error(file.string() + ": cannot be read");
-    }
-    found.map = std::make_shared<CMipMap>(picture, repeats);
-    return found;
-}
-
 std::size_t CWorldBuilder::addSurface(const std::string& name, double textureWidth) {
-    const TTexture& tile = texture(name, true);
+    const auto& tile = m_textures.get(name, true);
     TSurface surface;
     surface.texture = tile.map;
     surface.textureWidth = tile.width > 0 ? tile.width : textureWidth;
@@ -115,7 +109,7 @@ void CWorldBuilder::addWall(const TWall& wall) {
             lintel.u1 = u1;
             lintel.v0 = door.height;
             lintel.surface = surface;
-            const auto wood = texture("wood", false).map;
+            const auto wood = m_textures.get("wood", false).map;
             auto& decals = m_world.m_surfaces[surface].decals;
             decals.push_back({u0 - kFrame, u0, 0, door.height + kFrame, wood});
             decals.push_back({u1, u1 + kFrame, 0, door.height + kFrame, wood});
@@ -140,27 +134,29 @@ void CWorldBuilder::addDoor(const TWall& wall, const TDoor& door, double at) {
     const Vector3d normal = right.cross(Vector3d::UnitZ());
     const Vector3d frontLeft = onFloor(wall.left()) + (at - door.width / 2) * right;
     const Vector3d frontRight = frontLeft + door.width * right;
-    const Vector3d inwards = -door.depth * normal;
+    const bool open = door.isOpen(m_lap);
+    const double depth = open ? door.closet : door.depth;
+    const Vector3d inwards = -depth * normal;
     const std::size_t wood = addSurface("wood", 1);
     const std::size_t leaf = addSurface("wood", 1);
     m_world.m_surfaces[leaf].decals.push_back(
-        {0, door.width, 0, door.height, texture(door.texture, false).map});
+        {0, door.width, 0, door.height, m_textures.get(door.texture, false).map});
 
     const std::size_t first = m_world.m_faces.size();
-    addUpright(frontLeft + inwards, right, door.width).surface = leaf;
-    addUpright(frontLeft, -normal, door.depth).surface = wood;
-    addUpright(frontRight + inwards, normal, door.depth).surface = wood;
+    addUpright(frontLeft + inwards, right, door.width).surface = open ? wood : leaf;
+    addUpright(frontLeft, -normal, depth).surface = wood;
+    addUpright(frontRight + inwards, normal, depth).surface = wood;
+    if (open) {  // the leaf stands inwards at its left edge, where the hinges are
+        constexpr double gap = 0.05;
+        const double reach = std::min(door.width, depth - door.depth - gap);
+        addUpright(frontLeft - door.depth * normal + gap * right, -normal, reach).surface = leaf;
+    }
     for (std::size_t i = first; i < m_world.m_faces.size(); ++i) {
         m_world.m_faces[i].v1 = door.height;
         m_world.m_faces[i].brightness *= 0.93;  // a recess gets less light
     }
-    TFace soffit{frontLeft + inwards + Vector3d(0, 0, door.height),
-                 right,
-                 normal,
-                 0,
-                 door.width,
-                 0,
-                 door.depth};
+    TFace soffit{
+        frontLeft + inwards + Vector3d(0, 0, door.height), right, normal, 0, door.width, 0, depth};
     soffit.surface = wood;
     soffit.brightness = 0.6;
     soffit.upright = false;
@@ -195,23 +191,25 @@ void CWorldBuilder::addBox(const TBox& box) {
 }
 
 void CWorldBuilder::addPoster(const TPoster& poster, TSurface& surface) {
-    const double u = poster.at, v = poster.centreHeight;
+    const bool moved = poster.isMoved(m_lap);
+    const double u = moved ? poster.movedAt : poster.at, v = poster.centreHeight;
     const double w = poster.width / 2, h = poster.height / 2, b = poster.border;
     if (b > 0) surface.decals.push_back({u - w, u + w, v - h, v + h, plainColour({28, 30, 34})});
-    surface.decals.push_back(
-        {u - w + b, u + w - b, v - h + b, v + h - b, texture(poster.texture, false).map});
+    surface.decals.push_back({u - w + b, u + w - b, v - h + b, v + h - b,
+                              m_textures.get(poster.texture, false).map,
+                              static_cast<float>(poster.gloss)});
     const TWall& wall = m_description.wall(poster.wall);
     const Vector3d left = onFloor(wall.left());
     const Vector3d right = (onFloor(wall.right()) - left) / wall.length();
     const Vector3d normal = right.cross(Vector3d::UnitZ());
     TTrueLandmark truth;
-    truth.id = static_cast<int>(m_world.m_landmarks.size()) + 1;
     truth.kind = ETruthKind::salient;
     truth.centre = left + u * right + Vector3d(0, 0, v);
     truth.yaw = std::atan2(normal.y(), normal.x());
     truth.width = poster.width;
     truth.height = poster.height;
     truth.texture = std::filesystem::path(poster.texture).filename().string();
+    m_register.addPoster(poster.name, moved, truth);
     m_world.m_landmarks.push_back(truth);
 }
 
@@ -243,8 +241,8 @@ void CWorldBuilder::addCorners() {
         }
     for (const auto& c : corners) {
         TTrueLandmark truth;
-        truth.id = static_cast<int>(m_world.m_landmarks.size()) + 1;
         truth.centre = {c.x, c.y, m_description.laser.z};
+        m_register.addCorner(m_floor, truth);
         m_world.m_landmarks.push_back(truth);
     }
 }

@@ -3,14 +3,24 @@
 
 #include <salma/simulator/CWorld.h>
 
-#include <map>
+#include "CLandmarkRegister.h"
+#include "CTextureStore.h"
 
 namespace salma::simulator {
+
+/// Which part of a description is built.
+struct TScene {
+    const TWorld& description;
+    int lap, floor;
+};
 
 /// Turns a description into the faces and surfaces of a CWorld.
 class CWorldBuilder {
  public:
-    CWorldBuilder(const TWorld& description, CWorld& world);
+    CWorldBuilder(const TScene& scene,
+                  CTextureStore& textures,
+                  CLandmarkRegister& landmarks,
+                  CWorld& world);
     void build();
 
  private:
@@ -23,18 +33,15 @@ class CWorldBuilder {
     bool isCorner(const mrpt::math::TPoint2D& point, std::size_t segment) const;
 
     std::size_t addSurface(const std::string& texture, double textureWidth);
-    struct TTexture {
-        std::shared_ptr<const CMipMap> map;
-        double width{0};  //!< Of one tile [m]; 0 for a file, which does not say.
-    };
-    const TTexture& texture(const std::string& name, bool repeats);
     /// Adds an upright face that starts at `left` and runs `length` along `right`.
     TFace& addUpright(const Eigen::Vector3d& left, const Eigen::Vector3d& right, double length);
 
     const TWorld& m_description;
+    int m_lap, m_floor;
+    CTextureStore& m_textures;
+    CLandmarkRegister& m_register;
     CWorld& m_world;
-    std::map<std::pair<std::string, bool>, TTexture> m_textures;  //!< By name and repeats.
-    std::vector<TSegment> m_segments;                             //!< At the laser's height.
+    std::vector<TSegment> m_segments;  //!< At the laser's height.
 };
 
 }  // namespace salma::simulator

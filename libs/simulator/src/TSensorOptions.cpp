@@ -45,6 +45,11 @@ void TLaserOptions::visit(COptionVisitor& v) {
     v.number("max_offset_m", maxOffset, between(0, 1),
              "the run's constant offset lies within plus and minus this");
     v.degrees("beam_width_deg", beamWidth, between(0, 2), "an edge inside the beam mixes ranges");
+    v.number("stated_noise_m", statedNoise, between(0, 1),
+             "sigma that the records state; 0: the true one");
+    v.number("silent_every_s", silentEvery, atLeast(0),
+             "mean time between silences of the laser; 0: none");
+    v.number("silent_s", silent, between(0, 60), "how long a silence lasts");
 }
 
 double TLaserOptions::apertureAngle() const {
@@ -81,6 +86,7 @@ void TCameraOptions::visit(COptionVisitor& v) {
     v.number("noise_grey", noise, between(0, 50), "sigma of the sensor, of 255");
     v.number("vignetting", vignetting, between(0, 0.9), "light lost at the corners");
     v.number("latency_s", latency, between(-1, 1), "stamp minus true time of a picture");
+    v.number("latency_jitter_s", latencyJitter, between(0, 0.1), "sigma of the latency");
     v.integer("jpeg_quality", jpegQuality, between(1, 100), "of the picture files");
 }
 
@@ -133,6 +139,9 @@ void TOdometryOptions::visit(COptionVisitor& v) {
     v.degrees("heading_sigma_deg", headingSigma, between(0, 30),
               "random, per square root of metre");
     v.degrees("turn_sigma_deg", turnSigma, between(0, 30), "random, per square root of radian");
+    v.number("slips_per_m", slipsPerMetre, between(0, 10), "how often a wheel slips");
+    v.number("slip_sigma_m", slip, between(0, 2), "distance that a slip feigns");
+    v.degrees("slip_sigma_deg", slipTurn, between(0, 45), "turn that a slip feigns");
 }
 
 double TOdometryOptions::factor() const {

@@ -31,6 +31,8 @@ void TPathOptions::visit(COptionVisitor& v) {
     v.degrees("turn_rate_deg_s", turnRate, config::between(1, 360), "greatest turn rate");
     v.number("acceleration_mps2", acceleration, config::between(0.01, 10), "greatest");
     v.number("wander_m", wander, config::between(0, 1), "amplitude of swaying to the sides");
+    v.numbers("floors", floors, config::between(1, 9),
+              "floor of the way from each point to the next; empty: all 1");
 }
 
 void TPathOptions::validate() const {
@@ -40,6 +42,14 @@ void TPathOptions::validate() const {
     };
     if (points.size() % 2 != 0) say("an x lacks its y");
     if (points.size() < (closed ? 6 : 4)) say("too few points");
+    const std::size_t ways = points.size() / 2 - (closed ? 0 : 1);
+    if (!floors.empty() && floors.size() != ways)
+        throw std::invalid_argument("floors holds " + std::to_string(floors.size()) +
+                                    " numbers: the path has " + std::to_string(ways) + " ways");
+    for (const double floor : floors)
+        if (floor != std::floor(floor))
+            throw std::invalid_argument("floors = " + std::to_string(floor) +
+                                        " is not a whole number");
     if (!closed && laps > 1)
         throw std::invalid_argument("laps = " + std::to_string(laps) + " needs closed = true");
 }
@@ -59,17 +69,19 @@ class CWorldReader {
 
     void readAll() {
         config::rejectUnknownSections(
-            m_file, {"world", "path", "laser", "camera", "head", "odometry", "wall_*", "door_*",
-                     "box_*", "poster_*"});
+            m_file, {"world", "path", "laser", "camera", "head", "odometry", "people", "wall_*",
+                     "door_*", "box_*", "poster_*", "lamp_*"});
         section(m_world.room, "world");
         section(m_world.laser, "laser");
         section(m_world.camera, "camera");
         section(m_world.head, "head");
         section(m_world.odometry, "odometry");
+        section(m_world.people, "people");
         elements(m_world.walls, "wall_");
         elements(m_world.doors, "door_");
         elements(m_world.boxes, "box_");
         elements(m_world.posters, "poster_");
+        elements(m_world.lamps, "lamp_");
         if (m_world.walls.empty())
             throw std::invalid_argument(config::fileName(m_file) + ": has no [wall_...]");
         readPath();
@@ -79,6 +91,9 @@ class CWorldReader {
         for (const auto& d : m_world.doors) check(d);
         for (const auto& b : m_world.boxes) check(b);
         for (const auto& p : m_world.posters) check(p);
+        for (const auto& l : m_world.lamps)
+            if (l.position.size() != 3)
+                fail("lamp_" + l.name, "position_m", "must be three numbers: x, y and height");
     }
 
  private:
@@ -191,19 +206,26 @@ class CWorldReader {
 
     void check(const TPoster& poster) const {
         const std::string section = "poster_" + poster.name;
-        const TWall& wall = wallOf(section, poster.wall);
-        if (!(poster.at - poster.width / 2 >= 0 && poster.at + poster.width / 2 <= wall.length()))
-            fail(section, "at_m", "puts the poster outside its wall");
+        checkPlace(poster, poster.at, "at_m");
+        if (poster.movedInLap > 0) checkPlace(poster, poster.movedAt, "moved_at_m");
         if (!(poster.centreHeight - poster.height / 2 >= 0 &&
               poster.centreHeight + poster.height / 2 <= m_world.room.ceilingHeight))
             fail(section, "centre_height_m", "puts the poster outside its wall");
+        checkTexture(section, "texture", poster.texture);
+    }
+
+    /// `place` is the poster's centre along its wall, which `key` states.
+    void checkPlace(const TPoster& poster, double place, const std::string& key) const {
+        const std::string section = "poster_" + poster.name;
+        const TWall& wall = wallOf(section, poster.wall);
+        if (!(place - poster.width / 2 >= 0 && place + poster.width / 2 <= wall.length()))
+            fail(section, key, "puts the poster outside its wall");
         for (const auto& door : m_world.doors)
             for (const double at : door.at)
                 if (door.wall == poster.wall &&
-                    std::abs(at - poster.at) < (door.width + poster.width) / 2 &&
+                    std::abs(at - place) < (door.width + poster.width) / 2 &&
                     poster.centreHeight - poster.height / 2 < door.height)
-                    fail(section, "at_m", "hangs over [door_" + door.name + "]");
-        checkTexture(section, "texture", poster.texture);
+                    fail(section, key, "hangs over [door_" + door.name + "]");
     }
 
     const Ini& m_file;
@@ -228,11 +250,13 @@ TWorld loadWorld(const std::filesystem::path& file) {
 std::string asIni(const TWorld& world) {
     std::string ini = world.room.asIni("world") + "\n" + world.path.asIni("path") + "\n" +
                       world.laser.asIni("laser") + "\n" + world.camera.asIni("camera") + "\n" +
-                      world.head.asIni("head") + "\n" + world.odometry.asIni("odometry");
+                      world.head.asIni("head") + "\n" + world.odometry.asIni("odometry") + "\n" +
+                      world.people.asIni("people");
     append(ini, world.walls, "wall_");
     append(ini, world.doors, "door_");
     append(ini, world.boxes, "box_");
     append(ini, world.posters, "poster_");
+    append(ini, world.lamps, "lamp_");
     return ini;
 }
 

@@ -136,11 +136,66 @@ TBuiltInTexture marker() {
     return {p, 0.5};
 }
 
+void write(cv::Mat& p, const std::string& text, const cv::Point& at, double size, int grey) {
+    cv::putText(p, text, at, cv::FONT_HERSHEY_SIMPLEX, size, cv::Scalar::all(grey),
+                static_cast<int>(2 * size) + 1, cv::LINE_AA);
+}
+
+TBuiltInTexture exitSign() {  // who runs to a door, and the word
+    cv::Mat p = filled(512, 256, {70, 140, 20});
+    const cv::Scalar white(245, 250, 245);
+    cv::rectangle(p, {8, 8, 496, 240}, white, 6);
+    cv::rectangle(p, {30, 36, 96, 190}, white, cv::FILLED);
+    cv::rectangle(p, {50, 52, 60, 174}, {70, 140, 20}, cv::FILLED);
+    cv::circle(p, {196, 62}, 18, white, cv::FILLED, cv::LINE_AA);
+    for (const auto& [a, b] : {std::pair{cv::Point(186, 88), cv::Point(170, 146)},
+                               std::pair{cv::Point(186, 96), cv::Point(142, 112)},
+                               std::pair{cv::Point(190, 96), cv::Point(226, 128)},
+                               std::pair{cv::Point(170, 146), cv::Point(204, 176)},
+                               std::pair{cv::Point(204, 176), cv::Point(188, 222)},
+                               std::pair{cv::Point(170, 146), cv::Point(128, 196)}})
+        cv::line(p, a, b, white, 15, cv::LINE_AA);
+    write(p, "EXIT", {262, 118}, 3, 250);
+    cv::arrowedLine(p, {470, 182}, {276, 182}, white, 18, cv::LINE_AA, 0, 0.25);
+    return {p, 0.6};
+}
+
+TBuiltInTexture extinguisherSign() {
+    cv::Mat p = filled(320, 384, {40, 30, 200});
+    const cv::Scalar white(245, 245, 245);
+    cv::rectangle(p, {8, 8, 304, 368}, white, 6);
+    cv::rectangle(p, {60, 120, 84, 170}, white, cv::FILLED);
+    cv::ellipse(p, {102, 120}, {42, 30}, 0, 180, 360, white, cv::FILLED, cv::LINE_AA);
+    cv::rectangle(p, {92, 64, 20, 40}, white, cv::FILLED);
+    cv::line(p, {102, 70}, {170, 52}, white, 12, cv::LINE_AA);
+    cv::ellipse(p, {150, 170}, {34, 100}, 0, 270, 450, white, 9, cv::LINE_AA);
+    for (int i = 0; i < 3; ++i)
+        cv::ellipse(p, {250, 240 - 60 * i}, {34 - 6 * i, 46 - 6 * i}, 0, 0, 360, white,
+                    i % 2 == 0 ? cv::FILLED : 6, cv::LINE_AA);
+    write(p, "FIRE POINT", {40, 350}, 1.3, 250);
+    return {p, 0.4};
+}
+
+TBuiltInTexture doorPlate() {  // the same on each door
+    cv::Mat p = filled(384, 288, {225, 228, 230});
+    cv::rectangle(p, {5, 5, 374, 278}, {70, 70, 70}, 5);
+    cv::rectangle(p, {22, 22, 90, 90}, {130, 60, 20}, cv::FILLED);
+    cv::circle(p, {67, 67}, 30, {240, 240, 240}, 8, cv::LINE_AA);
+    write(p, "OFFICE", {130, 90}, 1.9, 20);
+    write(p, "Please knock", {24, 160}, 1.4, 40);
+    write(p, "Mo - Fr   9 - 17 h", {24, 210}, 1.1, 40);
+    cv::rectangle(p, {24, 232, 336, 30}, {40, 40, 170}, cv::FILLED);
+    for (int x = 40; x < 350; x += 34) cv::rectangle(p, {x, 238, 16, 18}, {240, 240, 240}, -1);
+    return {p, 0.4};
+}
+
 using Painter = TBuiltInTexture (*)();
 const std::vector<std::pair<std::string, Painter>> kPainters = {
-    {"plaster", plaster}, {"brick", brick},  {"wood", wood},     {"door", door},
-    {"plain", plain},     {"metal", metal},  {"notice", notice}, {"tiles", tiles},
-    {"panels", panels},   {"marker", marker}};
+    {"plaster", plaster}, {"brick", brick},   {"wood", wood},
+    {"door", door},       {"plain", plain},   {"metal", metal},
+    {"notice", notice},   {"tiles", tiles},   {"panels", panels},
+    {"marker", marker},   {"exit", exitSign}, {"extinguisher", extinguisherSign},
+    {"plate", doorPlate}};
 
 }  // namespace
 

@@ -13,8 +13,9 @@ struct TBuiltInTexture {
     double width{0};  //!< What its width stands for on a surface that it tiles [m].
 };
 
-/// Names that paintTexture() knows: plaster, brick, wood, door, plain, metal, notice, tiles, panels
-/// and marker (four black and white squares that meet at its centre).
+/// Names that paintTexture() knows: plaster, brick, wood, door, plain, metal, notice, tiles,
+/// panels, marker (four black and white squares that meet at its centre), exit, extinguisher and
+/// plate.
 std::vector<std::string> textureNames();
 
 bool isBuiltInTexture(const std::string& name);

@@ -174,7 +174,7 @@ TEST(CBankedFrontEnd, SeesThePosterWhereThisRunHasIt) {
     for (std::size_t i = 0; i < drive.pictureCount(); ++i) {
         const auto record = frontEnd.look(drive, i);
         ASSERT_TRUE(record);
-        const auto& truth = drive.world().landmarks().front();
+        const auto& truth = drive.landmarks().front();
         for (const auto& patch : record->landmarks) {
             const auto T_w_p =
                 mrpt::poses::CPose3D(drive.truePose(drive.pictureTime(i))) + patch.pose.mean;

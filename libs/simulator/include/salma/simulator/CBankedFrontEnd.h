@@ -23,9 +23,12 @@ struct TWallsInView {
     std::vector<laser::TLine> walls;          //!< In the robot frame at the picture's time.
 };
 
-/// What the scan nearest to `time` shows; nothing within `maxSkew` [s]. The robot's motion between
-/// both is the true one: odometry is nearly that good over so short a time.
-std::optional<TWallsInView> wallsInView(const CSimulator& drive, double time, double maxSkew);
+/// What the scan nearest to picture `index` shows; nothing within `maxSkew` [s]. The robot's motion
+/// between both is that of odometry with medium noise, whatever the run's own level: records are
+/// those of a front end that has worked once for runs of all levels.
+std::optional<TWallsInView> wallsInView(const CSimulator& drive,
+                                        std::size_t index,
+                                        double maxSkew);
 
 /** Stands for camera and front end in a run without pictures: gives the record that they would.
  *

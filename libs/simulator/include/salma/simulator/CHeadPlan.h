@@ -5,6 +5,7 @@
 #include <salma/simulator/CWorld.h>
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -15,6 +16,15 @@ namespace salma::simulator {
  * The head turns at constant speed, stops, and takes its picture at rest. */
 class CHeadPlan {
  public:
+    /// What is around the robot at some time [s after the start].
+    using WorldAt = std::function<const CWorld&(double)>;
+
+    CHeadPlan(const THeadOptions& options,
+              const CPath& path,
+              const WorldAt& world,
+              std::uint32_t seed);
+
+    /// Where nothing changes. \param world Used here only.
     CHeadPlan(const THeadOptions& options,
               const CPath& path,
               const CWorld& world,
@@ -34,7 +44,7 @@ class CHeadPlan {
     /// Pan towards the nearest poster that can be seen from where the robot is at `time`.
     std::optional<double> nearestPoster(const CPath& path, const CWorld& world, double time) const;
     std::optional<double> target(const CPath& path,
-                                 const CWorld& world,
+                                 const WorldAt& world,
                                  double time,
                                  double pan) const;
 

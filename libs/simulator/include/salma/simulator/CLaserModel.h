@@ -28,6 +28,9 @@ class CLaserModel {
     mrpt::obs::CObservation2DRangeScan scan(const mrpt::math::TPose2D& T_w_r,
                                             std::uint64_t index) const;
 
+    /// The same laser with more that its beams can hit.
+    CLaserModel with(const std::vector<TSegment>& obstacles) const;
+
     /// Range along each beam, without any noise [m]; infinity where nothing is hit.
     std::vector<double> trueRanges(const mrpt::math::TPose2D& T_w_r) const;
 

@@ -18,7 +18,9 @@ class CRandom;
  * sigma of that name:
  *   d' = d (1 + scale) + N(0, s_distance sqrt|d|),
  *   a' = a (1 + turn_scale) + drift |d| + N(0, s_heading sqrt|d|) + N(0, s_turn sqrt|a|),
- * where scale, turn_scale and drift are drawn once. Source: own, after the usual velocity model. */
+ * where scale, turn_scale and drift are drawn once. With probability slips_per_m |d| a wheel slips
+ * in the increment, which adds N(0, s_slip) to d' and N(0, s_slip_turn) to a'. Source: own, after
+ * the usual velocity model. */
 class COdometryModel {
  public:
     COdometryModel(const TOdometryOptions& options, std::uint32_t seed);
@@ -31,7 +33,7 @@ class COdometryModel {
 
  private:
     TOdometryOptions m_options;
-    std::unique_ptr<CRandom> m_random;
+    std::unique_ptr<CRandom> m_random, m_slips;
     double m_scale, m_turnScale, m_drift;
     std::optional<mrpt::math::TPose2D> m_last;  //!< T_w_r of the last call.
     mrpt::math::TPose2D m_pose;

@@ -18,6 +18,14 @@ class CPath {
 
     double duration() const { return m_times.back(); }  //!< Of all laps [s].
     double lapLength() const { return m_lapLength; }    //!< [m]
+    /// Number of the lap, from 1 on, and floor of the building at `time` [s].
+    int lap(double time) const;
+    int floor(double time) const;
+
+    /// T_w_p: `distance` [m] along the lap, to the left by `aside` [m], without swaying.
+    mrpt::math::TPose2D beside(double distance, double aside) const;
+    int floorAt(double lapDistance) const { return pieceAt(lapDistance).floor; }
+
     /// When the first lap ends [s].
     double firstLapEnd() const;
 
@@ -31,6 +39,7 @@ class CPath {
         double length;     //!< [m]
         double curvature;  //!< Left is positive [1/m].
         mrpt::math::TPose2D from;
+        int floor;
     };
     void addPieces(const std::vector<mrpt::math::TPoint2D>& points);
     void planSpeed();

@@ -8,9 +8,12 @@
 #include <salma/simulator/CImageSensor.h>
 #include <salma/simulator/CLaserModel.h>
 #include <salma/simulator/COdometryModel.h>
+#include <salma/simulator/CPeople.h>
+#include <salma/simulator/CScenes.h>
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <vector>
 
 namespace salma::simulator {
@@ -85,13 +88,31 @@ class CSimulator {
     /// Posters whose centre picture `index` shows, not hidden by anything.
     std::vector<TSighting> sightingsInPicture(std::size_t index) const;
 
-    const CWorld& world() const { return m_world; }
+    /// Of the first lap, on the first floor of the path.
+    const CWorld& world() const { return worldAt(0); }
+
+    /// What stands around the robot at that time [s after the start], without people.
+    const CWorld& worldAt(double time) const {
+        return m_scenes.at(m_path.lap(time), m_path.floor(time));
+    }
+
+    /// Those of all laps and floors.
+    const std::vector<TTrueLandmark>& landmarks() const { return m_scenes.landmarks(); }
+
+    const CPeople& people() const { return m_people; }
+
+    /// The motion from one time to a later one as wheels of medium noise would have it: T_from_to.
+    /// \param draw Which errors are drawn.
+    mrpt::math::TPose2D wheelMotion(double from, double to, std::uint32_t draw) const;
     const CCameraModel& camera() const { return m_camera; }
 
  private:
     using Records = std::vector<mrpt::obs::CObservation::Ptr>;
 
     observations::CObservationPanTilt headState(double time) const;
+    /// The picture's stamp less that of the start [s].
+    double pictureStamp(std::size_t index) const;
+    std::vector<double> scanInstants() const;
     std::string pictureName(std::size_t index) const;
     std::vector<double> instants(double rate,
                                  double phase,
@@ -109,13 +130,13 @@ class CSimulator {
 
     TWorld m_description;
     TSimulationOptions m_options;
-    CWorld m_world;
+    CScenes m_scenes;
     CPath m_path;
+    CPeople m_people;
     CHeadPlan m_head;
     CCameraModel m_camera;
-    CRenderer m_renderer;
     CImageSensor m_sensor;
-    CLaserModel m_laser;
+    std::map<const CWorld*, CLaserModel> m_lasers;  //!< One in each scene.
     std::vector<double> m_scanTimes;
 };
 

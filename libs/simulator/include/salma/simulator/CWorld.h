@@ -6,6 +6,7 @@
 #include <salma/simulator/TWorld.h>
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <string>
@@ -17,6 +18,14 @@ namespace salma::simulator {
 struct TDecal {
     double u0, u1, v0, v1;                   //!< Where, in the surface's coordinates [m].
     std::shared_ptr<const CMipMap> texture;  //!< Stretched over it, upright.
+    float gloss{0};                          //!< Share of a lamp's light that it mirrors [-].
+};
+
+/// What glass mirrors.
+struct TLight {
+    Eigen::Vector3d position;  //!< [m]
+    double brightness;         //!< Of its middle; white is 1.
+    double width;              //!< Sigma of its glow [rad].
 };
 
 /// What an area looks like: a tiled texture with pictures on it.
@@ -57,19 +66,40 @@ struct TTrueLandmark {
     std::string texture;  //!< File name of a poster's picture.
 };
 
-/// The geometry and the textures of a world.
+class CTextureStore;
+class CLandmarkRegister;
+
+/// The geometry and the textures of a world, of one floor in one lap.
 class CWorld {
  public:
-    /// Paints or loads the textures. \throw std::runtime_error if one cannot be read.
+    /// Nothing at all.
+    CWorld() = default;
+
+    /// The first lap on the first floor. Paints or loads the textures. \throw std::runtime_error if
+    /// one cannot be read.
     explicit CWorld(const TWorld& description);
+
+    /// Where laps and floors differ (CScenes): all share textures and the numbers of landmarks.
+    CWorld(const TWorld& description,
+           int lap,
+           int floor,
+           CTextureStore& textures,
+           CLandmarkRegister& landmarks);
 
     const std::vector<TFace>& faces() const { return m_faces; }
     const std::vector<TSurface>& surfaces() const { return m_surfaces; }
+    const std::vector<TLight>& lights() const { return m_lights; }
+
+    /// Adds somebody who stands at `place` [m], in clothes of two colours by `clothes`.
+    void addPerson(const mrpt::math::TPoint2D& place,
+                   const TPeopleOptions& people,
+                   std::uint64_t clothes);
 
     /// Everything that a horizontal beam at `height` [m] can hit.
     std::vector<TSegment> segmentsAt(double height) const;
 
-    /// Posters first, then the corners at the laser's height; ids count from 1.
+    /// Those that are here: posters first, then the corners at the laser's height. Ids count from
+    /// 1, posters of all laps and floors before all corners.
     const std::vector<TTrueLandmark>& landmarks() const { return m_landmarks; }
 
     /// Distance from `from` along the unit vector `direction` to the nearest face [m]; infinity if
@@ -83,6 +113,7 @@ class CWorld {
     friend class CWorldBuilder;
     std::vector<TFace> m_faces;
     std::vector<TSurface> m_surfaces;
+    std::vector<TLight> m_lights;
     std::vector<TTrueLandmark> m_landmarks;
 };
 

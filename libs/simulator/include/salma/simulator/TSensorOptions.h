@@ -26,6 +26,9 @@ struct TLaserOptions : public config::TStrictOptions<TLaserOptions> {
     double noise{0.005};      //!< Sigma of a range [m].
     double maxOffset{0.015};  //!< The run's constant offset is drawn from +- this [m].
     double beamWidth{mrpt::DEG2RAD(0.25)};  //!< Full angle of the beam; edges in it mix [rad].
+    double statedNoise{0};  //!< Sigma that the records state instead of `noise`; 0: the true [m].
+    double silentEvery{0};  //!< Mean time from one silence to the next; 0: never silent [s].
+    double silent{3};       //!< How long a silence lasts [s].
 
     void visit(config::COptionVisitor& v);
 
@@ -51,6 +54,7 @@ struct TCameraOptions : public config::TStrictOptions<TCameraOptions> {
     double noise{1.6};                            //!< Sigma of the sensor [grey levels of 255].
     double vignetting{0.12};                      //!< Light lost at the corners [-].
     double latency{0};                            //!< Stamp minus true time of the picture [s].
+    double latencyJitter{0};                      //!< Sigma of that beside its mean [s].
     int jpegQuality{85};
 
     void visit(config::COptionVisitor& v);
@@ -99,6 +103,9 @@ struct TOdometryOptions : public config::TStrictOptions<TOdometryOptions> {
     double distanceSigma{0.02};                //!< Random, per square root of metre [m].
     double headingSigma{mrpt::DEG2RAD(1.06)};  //!< Random, per square root of metre [rad].
     double turnSigma{mrpt::DEG2RAD(1.0)};      //!< Random, per square root of radian turned [rad].
+    double slipsPerMetre{0};                   //!< Mean number of times that a wheel slips [1/m].
+    double slip{0.1};                          //!< Sigma of the distance that a slip feigns [m].
+    double slipTurn{mrpt::DEG2RAD(1.0)};       //!< Sigma of the turn that a slip feigns [rad].
 
     void visit(config::COptionVisitor& v);
     double factor() const;  //!< What `level` multiplies the sigmas by.

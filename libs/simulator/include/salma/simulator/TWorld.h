@@ -28,7 +28,8 @@ struct TPathOptions : public config::TStrictOptions<TPathOptions> {
     double speed{0.5};                     //!< [m/s]
     double turnRate{mrpt::DEG2RAD(30.0)};  //!< The robot slows down to keep it [rad/s].
     double acceleration{0.3};              //!< [m/s^2]
-    double wander{0.06};  //!< Amplitude of its swaying to the sides, other in each lap [m].
+    double wander{0.06};         //!< Amplitude of its swaying to the sides, other in each lap [m].
+    std::vector<double> floors;  //!< Floor of the way from each point to the next; empty: all 1.
 
     void visit(config::COptionVisitor& v);
     void validate() const;
@@ -47,6 +48,8 @@ struct TWorld {
     std::vector<TDoor> doors;
     std::vector<TBox> boxes;
     std::vector<TPoster> posters;
+    std::vector<TLamp> lamps;
+    TPeopleOptions people;
 
     /// "hallway-loop" of ".../hallway-loop.ini"; the names of all results begin so.
     std::string name() const { return file.stem().string(); }
