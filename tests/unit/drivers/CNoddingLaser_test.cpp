@@ -7,6 +7,7 @@
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <salma/config/CStrictFile.h>
 #include <salma/drivers/CNoddingLaser.h>
+#include <salma/drivers/CSerialLine.h>
 #include <salma/drivers/registerSensors.h>
 #include <salma/laser/CPlaneExtractor.h>
 #include <salma/simulator/CNoddingLaserModel.h>
@@ -56,6 +57,13 @@ class NoddingLaser : public testing::Test {
                 "pose_x = 0.18\npose_z = 0.4\nCOM_port_LIN = " +
                 laserPort() + "\nmount_port = " + mountPort() + "\n" + more),
             "NODDING");
+    }
+
+    /// What was said before it fell silent may still be on its way.
+    static void drainPort(const std::string& port) {
+        drivers::CSerialLine line(port, 115200);
+        while (!line.read(0.1).empty()) {
+        }
     }
 
     std::string startMessage() {
@@ -180,6 +188,7 @@ TEST_F(NoddingLaser, WithoutTheMountThereAreNoSweepsAndWithItThereAreAgain) {
 TEST_F(NoddingLaser, PortsThatAreMissingOrSilentAtTheStartAreErrors) {
     load();
     m_mountEnd.locked([&] { m_mount.silence(true); });
+    drainPort(mountPort());
     EXPECT_EQ(startMessage(), mountPort() + ": no elevation ($NOD) comes from there");
     m_mountEnd.unplug();
     EXPECT_EQ(startMessage(), mountPort() + ": no such serial port, or nothing is plugged in");

@@ -4,6 +4,7 @@
 #include <mrpt/core/Clock.h>
 #include <mrpt/core/bits_math.h>
 #include <mrpt/obs/CObservationOdometry.h>
+#include <salma/drivers/CSerialLine.h>
 #include <salma/drivers/CWheelOdometry.h>
 
 #include <chrono>
@@ -92,6 +93,11 @@ TEST_F(Base, GarbledSentencesAreLeftOut) {
 TEST_F(Base, APortThatIsMissingOrSilentAtTheStartIsAnError) {
     load();
     m_emulator.locked([&] { m_device.silence(true); });
+    {
+        drivers::CSerialLine line(port(), 115200);  // what it said before is still on its way
+        while (!line.read(0.1).empty()) {
+        }
+    }
     EXPECT_EQ(startMessage(), port() + ": no odometry ($ODO) comes from there");
     m_emulator.unplug();
     EXPECT_EQ(startMessage(), port() + ": no such serial port, or nothing is plugged in");
