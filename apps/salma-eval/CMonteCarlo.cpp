@@ -90,7 +90,8 @@ CMonteCarlo::CMonteCarlo(const TStudy& study)
 
 void CMonteCarlo::prepare() {
     for (auto& world : m_worlds) {
-        if (!m_study.banks.empty()) world.useBank(m_study.banks, static_cast<int>(m_study.jobs));
+        if (!m_study.banks.empty())
+            world.useBank(m_study.banks, m_study.draws, static_cast<int>(m_study.jobs));
         m_worldHashes.push_back(world.hash());
     }
 }

@@ -21,6 +21,7 @@ struct TStudy {
     std::string config;               //!< An ini file of salma-slam.
     std::vector<std::string> worlds;  //!< World files, with different names.
     std::string banks;                //!< Folder of their banks of sightings; "": render.
+    int draws{4};                     //!< Renderings of each picture in a bank.
     std::vector<std::string> noise;   //!< As noiseNames() has them; so below.
     std::vector<std::string> backends, methods;
     std::uint32_t firstSeed{1}, seeds{50};

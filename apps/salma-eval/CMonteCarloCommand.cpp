@@ -116,9 +116,14 @@ void CMonteCarloCommand::addOptions() {
     command.add_option("--worlds", m_study.worlds, "world files of salma-sim, with commas between")
         ->delimiter(',')
         ->required();
-    command.add_option("--banks", m_study.banks,
-                       "take sightings from the banks in this folder, which are made if missing; "
-                       "else the pictures of each drive are rendered");
+    auto* banks = command.add_option(
+        "--banks", m_study.banks,
+        "take sightings from the banks in this folder, which are made if missing; "
+        "else the pictures of each drive are rendered");
+    command.add_option("--draws", m_study.draws, "renderings of each picture in a bank")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str()
+        ->needs(banks);
     addNames(command, "--noise", m_study.noise, noiseNames())->capture_default_str();
     addNames(command, "--backends", m_study.backends, backendNames())->capture_default_str();
     addNames(command, "--methods", m_study.methods, methodNames())->capture_default_str();

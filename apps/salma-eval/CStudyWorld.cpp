@@ -55,9 +55,10 @@ observations::TSalientRecords recordsOf(const observations::TLog& log) {
 CStudyWorld::CStudyWorld(const fs::path& file, const TSlamConfig& config)
     : m_world(simulator::loadWorld(file)), m_config(config) {}
 
-void CStudyWorld::useBank(const fs::path& folder, int threads) {
+void CStudyWorld::useBank(const fs::path& folder, int draws, int threads) {
     const fs::path file = folder / (name() + ".bank");
     simulator::TBankOptions options;
+    options.draws = draws;
     options.threads = threads;
     options.seeing = m_config.seeing;
     const simulator::CBankBuilder builder(m_world, options);

@@ -24,10 +24,10 @@ class CStudyWorld {
     CStudyWorld(const std::filesystem::path& file, const TSlamConfig& config);
 
     /** From now on records come from the bank NAME.bank in `folder`, which is made in `threads`
-     * threads if it is missing.
+     * threads if it is missing, with so many renderings of each picture.
      * \throw std::runtime_error, std::invalid_argument if the bank there is another
      * world's or another front end's, or the world cannot have one. */
-    void useBank(const std::filesystem::path& folder, int threads);
+    void useBank(const std::filesystem::path& folder, int draws, int threads);
 
     std::string name() const { return m_world.name(); }
     int laps() const { return m_world.path.laps; }

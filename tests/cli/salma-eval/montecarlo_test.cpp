@@ -233,21 +233,24 @@ TEST(MonteCarlo, ARunThatThrowsIsCountedWithItsMessage) {
 TEST(MonteCarlo, TakesSightingsFromABank) {
     const CTemporaryFolder folder;
     const std::string banks = (folder / "banks").string();
-    const auto first = study(folder, {"--banks", banks});
+    const auto first = study(folder, {"--banks", banks, "--draws", "2"});
     ASSERT_EQ(first.exitCode, 0) << first.output;
     const std::string bank = readFile(folder / "banks/short.bank"), tables = tablesOf(folder);
     const auto rows = json::parse(readFile(folder / "out/table.json"))["rows"];
     EXPECT_EQ(rows[0]["failed"], 0);
     EXPECT_GT(rows[0]["salient_made"]["mean"], 0);
 
-    EXPECT_NE(study(folder, {"--banks", banks}).output.find("0 runs made"), std::string::npos);
+    EXPECT_NE(study(folder, {"--banks", banks, "--draws", "2"}).output.find("0 runs made"),
+              std::string::npos);
     EXPECT_EQ(readFile(folder / "banks/short.bank"), bank) << "it is not made again";
     EXPECT_EQ(tablesOf(folder), tables);
     EXPECT_NE(study(folder).output.find("4 results there are of another"), std::string::npos)
         << "rendered drives are others";
 
+    EXPECT_NE(failure(study(folder, {"--banks", banks})).find("draws = 4"), std::string::npos);
     folder.write("banks/short.bank", bank.substr(0, bank.size() / 2));
-    EXPECT_NE(failure(study(folder, {"--banks", banks})).find("short.bank"), std::string::npos);
+    EXPECT_NE(failure(study(folder, {"--banks", banks, "--draws", "2"})).find("short.bank"),
+              std::string::npos);
 }
 
 TEST(MonteCarlo, RefusesChangedResultsOrDropsAHalfLine) {
@@ -296,6 +299,7 @@ TEST(MonteCarlo, UnknownFlagsAndValuesAreMisuse) {
                                                                   {"--backends", "posegraph"},
                                                                   {"--seeds", "0"},
                                                                   {"--jobs", "0"},
+                                                                  {"--draws", "3"},
                                                                   {"--limit-s", "-1"},
                                                                   {"--limit-s", "nan"},
                                                                   {"--max-ate-m", "0"}})
