@@ -11,6 +11,7 @@ SALMA_PACKAGES=(
     libmrpt-dev libopencv-dev libeigen3-dev libboost-dev libboost-iostreams-dev libsqlitecpp-dev libsqlite3-dev zlib1g-dev
     libcli11-dev nlohmann-json3-dev gnuplot-nox fonts-dejavu-core
     libhwy-dev libnanoflann-dev libceres-dev libv4l-dev libgtest-dev libbenchmark-dev mrpt-apps mrpt-common
+    xvfb xdotool openbox
 )
 
 say() { printf '== %s\n' "$*"; }

@@ -38,25 +38,28 @@ TDetectConfig TDetectConfig::load(const std::string& file) {
     loaded.affine.loadFromConfigFile(*ini, "affine");
     loaded.mser.loadFromConfigFile(*ini, "mser");
     loaded.quad.loadFromConfigFile(*ini, "quad");
+    loaded.external.loadFromConfigFile(*ini, "external");
     return loaded;
 }
 
 std::string TDetectConfig::asIni() const {
     return saliency.asIni("saliency") + "\n" + clustering.asIni("clustering") + "\n" +
-           affine.asIni("affine") + "\n" + mser.asIni("mser") + "\n" + quad.asIni("quad");
+           affine.asIni("affine") + "\n" + mser.asIni("mser") + "\n" + quad.asIni("quad") + "\n" +
+           external.asIni("external");
 }
 
 CDetectCommand::CDetectCommand(CLI::App& app)
     : m_command(app.add_subcommand("detect", kDescription)) {
     m_command->add_option("IMAGE", m_images, "pictures; their names must differ");
     m_command->add_option("--out", m_out, "folder for the results");
-    m_command->add_option("--config", m_configFile,
-                          "ini file: [saliency], [clustering], [affine], [mser], [quad]");
+    m_command->add_option(
+        "--config", m_configFile,
+        "ini file: [saliency], [clustering], [affine], [mser], [quad], [external]");
     m_command
         ->add_option("--detector", m_detector,
-                     "scale-saliency (default), mser, both of them, or quad: closed contours "
-                     "with four sides")
-        ->check(CLI::IsMember({"scale-saliency", "mser", "both", "quad"}));
+                     "scale-saliency (default), mser, both of them, quad: closed contours "
+                     "with four sides, or external: the program in [external]")
+        ->check(CLI::IsMember({"scale-saliency", "mser", "both", "quad", "external"}));
     m_command->add_flag("--affine", m_affine,
                         "adapt the regions to ellipses, as [affine] use does");
     m_command->add_flag("--peaks", m_peaks, "write all entropy peaks too, before clustering");
@@ -96,8 +99,8 @@ void CDetectCommand::run(std::ostream& out) {
             const cv::Mat grey = readGrey(image);
             const std::string stem = std::filesystem::path(image).stem().string();
             const std::string prefix = folder / stem;
-            out << stem << ": " << grey.cols << "x" << grey.rows << ", " << find(grey, prefix)
-                << "\n";
+            const std::string found = find(grey, prefix);
+            out << stem << ": " << grey.cols << "x" << grey.rows << ", " << found << "\n";
             progress.step();
         }
     }
@@ -106,6 +109,7 @@ void CDetectCommand::run(std::ostream& out) {
 
 std::string CDetectCommand::find(const cv::Mat& grey, const std::string& prefix) const {
     if (m_detector == "quad") return findQuads(grey, prefix);
+    if (m_detector == "external") return findExternal(grey, prefix);
     if (m_detector == "mser") return findStable(grey, prefix);
     if (m_detector == "scale-saliency") return findSalient(grey, prefix);
     return findSalient(grey, prefix) + ", " + findStable(grey, prefix + ".stable");
@@ -151,6 +155,13 @@ std::string CDetectCommand::findStable(const cv::Mat& grey, const std::string& p
     saliency::writeVgg(prefix + ".vgg", ellipses);
     writePicture(prefix + ".overlay.png", drawOverlay(grey, regions));
     return std::to_string(regions.size()) + " stable regions";
+}
+
+std::string CDetectCommand::findExternal(const cv::Mat& grey, const std::string& prefix) const {
+    const auto ellipses = saliency::CExternalDetector(m_config.external).detect(grey);
+    saliency::writeVgg(prefix + ".vgg", ellipses);
+    writePicture(prefix + ".overlay.png", drawOverlay(grey, ellipses));
+    return std::to_string(ellipses.size()) + " regions";
 }
 
 std::string CDetectCommand::findQuads(const cv::Mat& grey, const std::string& prefix) const {

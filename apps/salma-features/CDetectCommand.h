@@ -3,6 +3,7 @@
 
 #include <salma/saliency/CAffineSaliency.h>
 #include <salma/saliency/CClusterer.h>
+#include <salma/saliency/CExternalDetector.h>
 #include <salma/saliency/CQuadrilaterals.h>
 #include <salma/saliency/CScaleSaliency.h>
 #include <salma/saliency/CStableRegions.h>
@@ -21,6 +22,7 @@ struct TDetectConfig {
     saliency::TAffineOptions affine;
     saliency::TStableRegionsOptions mser;
     saliency::TQuadOptions quad;
+    saliency::TExternalOptions external;
 
     /// Other sections of the file are left unread. \throw std::invalid_argument
     static TDetectConfig load(const std::string& file);
@@ -50,6 +52,7 @@ class CDetectCommand {
     std::string find(const cv::Mat& grey, const std::string& prefix) const;
     std::string findSalient(const cv::Mat& grey, const std::string& prefix) const;
     std::string findStable(const cv::Mat& grey, const std::string& prefix) const;
+    std::string findExternal(const cv::Mat& grey, const std::string& prefix) const;
     std::string findQuads(const cv::Mat& grey, const std::string& prefix) const;
 
     CLI::App* m_command;

@@ -42,7 +42,11 @@ CEntityDetector::CEntityDetector(const TDetectionOptions& options)
       m_saliency(options.saliency),
       m_clusterer(saliency::createClusterer(options.clustering)),
       m_stable(options.mser),
-      m_quads(options.quad) {}
+      m_quads(options.quad),
+      m_external(options.external) {
+    if (m_detector == EDetector::external && options.external.command.empty())
+        throw std::invalid_argument("detector = external needs a command in [external]");
+}
 
 /// The picture, its grey levels multiplied so that their mean is as large as wanted.
 cv::Mat CEntityDetector::bright(const cv::Mat& grey) const {
@@ -71,6 +75,10 @@ TDetections CEntityDetector::detect(const cv::Mat& picture) const {
             break;
         case EDetector::quad:
             addQuads(grey, out);
+            break;
+        case EDetector::external:
+            for (const auto& e : m_external.detect(grey))
+                out.regions.push_back({e.u, e.v, e.radius(), 0, 0, 0});
     }
     return out;
 }

@@ -179,8 +179,10 @@ void TSelectionOptions::visit(config::COptionVisitor& v) {
              {{"scale-saliency", EDetector::scaleSaliency},
               {"mser", EDetector::mser},
               {"both", EDetector::both},
-              {"quad", EDetector::quad}},
-             "salient regions, stable ones, salient ones joined by stable ones, or contours");
+              {"quad", EDetector::quad},
+              {"external", EDetector::external}},
+             "salient regions, stable ones, salient ones joined by stable ones, contours, or those "
+             "of the program in [external]");
     v.number("brightness", brightness, config::between(0, 255),
              "mean grey level that darker pictures are brought to before regions are sought");
     v.number("y_min", yMin, config::atLeast(0), "least saliency Y of a salient region [nat]");

@@ -55,6 +55,18 @@ mrpt::opengl::CSetOfLines::Ptr frameOf(const TPatch& patch) {
     return lines;
 }
 
+/// From the camera to the corners of the patch.
+mrpt::opengl::CSetOfLines::Ptr raysTo(const TPatch& patch, const CPose3D& camera) {
+    auto rays = mrpt::opengl::CSetOfLines::Create();
+    for (const double u : {-patch.width / 2, patch.width / 2})
+        for (const double v : {-patch.height / 2, patch.height / 2}) {
+            const auto corner = patch.pose.mean.composePoint({u, v, 0});
+            rays->appendLine(camera.x(), camera.y(), camera.z(), corner.x, corner.y, corner.z);
+        }
+    rays->setColor_u8(mrpt::img::TColor(255, 200, 0));
+    return rays;
+}
+
 mrpt::opengl::CTexturedPlane::Ptr planeOf(const TPatch& patch) {
     const auto u = static_cast<float>(patch.width / 2);
     const auto v = static_cast<float>(patch.height / 2);
@@ -132,11 +144,13 @@ std::string CObservationSalientLandmarks::exportTxtDataRow() const {
 
 void CObservationSalientLandmarks::getVisualizationInto(
     mrpt::opengl::CSetOfObjects& objects) const {
+    drawing::insertAxes(objects, CPose3D(), 0.5F, "robot");
     drawing::insertAxes(objects, cameraPose, 0.2F, sensorLabel);
     for (const TPatch& patch : landmarks) {
         if (!(patch.width > 0 && patch.height > 0)) continue;  // MRPT refuses such a plane
         objects.insert(planeOf(patch));
         objects.insert(frameOf(patch));
+        objects.insert(raysTo(patch, cameraPose));
         drawing::insertAxes(objects, patch.pose.mean, 0.2F, "");
     }
 }

@@ -70,15 +70,26 @@ class CLines {
     std::size_t m_number{0};
 };
 
-std::size_t readCount(CLines& lines) {
+/// The first lines of a region file.
+struct TVggHeader {
+    std::size_t descriptor{0};  //!< Numbers behind each ellipse.
+    std::size_t count{0};
+};
+
+TVggHeader readHeader(CLines& lines, std::size_t most) {
+    constexpr double kLongest = 1000;
+    TVggHeader header;
     if (!lines.next()) lines.fail("file ends before the descriptor length 1.0");
     const double length = lines.numbers(1)[0];
-    if (length != 0 && length != 1) lines.fail("descriptor length is not 1.0 (or 0): none");
+    if (!(length >= 0 && length <= kLongest) || length != std::floor(length))
+        lines.fail("descriptor length is not a whole number from 0 to 1000");
+    if (length > 1) header.descriptor = static_cast<std::size_t>(length);
     if (!lines.next()) lines.fail("file ends before the number of regions");
     const double count = lines.numbers(1)[0];
-    if (!(count >= 0 && count <= 1e9) || count != std::floor(count))
-        lines.fail("number of regions is not a whole number from 0 to 1e9");
-    return static_cast<std::size_t>(count);
+    if (!(count >= 0 && count <= static_cast<double>(most)) || count != std::floor(count))
+        lines.fail("number of regions is not a whole number from 0 to " + std::to_string(most));
+    header.count = static_cast<std::size_t>(count);
+    return header;
 }
 
 }  // namespace
@@ -91,12 +102,12 @@ void writeVgg(const std::string& file, const std::vector<TEllipse>& regions) {
     close(out, file);
 }
 
-std::vector<TEllipse> readVgg(const std::string& file) {
+std::vector<TEllipse> readVgg(const std::string& file, std::size_t most) {
     CLines lines(file);
-    const std::size_t count = readCount(lines);
+    const auto [descriptor, count] = readHeader(lines, most);
     std::vector<TEllipse> regions;
     while (lines.next()) {
-        const auto n = lines.numbers(5);
+        const auto n = lines.numbers(5 + descriptor);
         if (!(n[2] > 0 && n[2] * n[4] - n[3] * n[3] > 0)) lines.fail("a, b, c are not an ellipse");
         if (regions.size() == count)
             lines.fail("more regions than the " + std::to_string(count) + " announced");

@@ -336,5 +336,38 @@ TEST(SalmaFeaturesDetect, BeginsItsHelpWithExamples) {
     }
 }
 
+TEST(SalmaFeaturesDetect, TakesTheRegionsOfAnotherProgram) {
+    const CTemporaryFolder folder;
+    const std::string program =
+        folder.write("regions.sh", "#!/bin/sh\nprintf '1.0\\n1\\n40 30 0.01 0 0.04\\n' > \"$2\"\n");
+    fs::permissions(program, fs::perms::owner_all);
+    const auto ini =
+        folder.write("my.ini", "[external]\ncommand = " + program + " {image} {regions}\n");
+    const auto result = detect({posterFile(folder), "--detector", "external", "--config", ini,
+                                "--out", (folder / "out").string()});
+    ASSERT_EQ(result.exitCode, 0) << result.output;
+    EXPECT_NE(result.output.find("poster: 160x120, 1 regions"), std::string::npos) << result.output;
+    EXPECT_EQ(readFile(folder / "out/poster.vgg"), "1.0\n1\n40 30 0.01 0 0.04\n");
+    EXPECT_TRUE(fs::exists(folder / "out/poster.overlay.png"));
+}
+
+TEST(SalmaFeaturesDetect, SaysWhatBecameOfAnotherProgramThatFails) {
+    const CTemporaryFolder folder;
+    const auto with = [&](const std::string& section) {
+        return detect({posterFile(folder), "--detector", "external", "--config",
+                       folder.write("my.ini", "[external]\n" + section), "--out",
+                       (folder / "out").string()});
+    };
+    expectOneLineError(with(""), "needs a command in [external]");
+    expectOneLineError(with("command = no-such-program {image} {regions}\n"),
+                       "external detector 'no-such-program' cannot be started");
+    expectOneLineError(with("command = sleep 100 {image} {regions}\ntime_limit_s = 0.2\n"),
+                       "sleep");
+    expectOneLineError(with("command = cp {image} {regions}\n"),
+                       "wrote no good region file, line:1:");
+    expectOneLineError(with("command = true {image}\n"), "lacks {regions}");
+    EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
 }  // namespace
 }  // namespace salma

@@ -226,6 +226,32 @@ TEST(SalmaSlam, TakesMissingPictureFilesForANotice) {
     EXPECT_FALSE(fs::exists(folder / "no"));
 }
 
+TEST(SalmaSlam, TakesTheRegionsOfAnotherProgramAndSurvivesItsFaults) {
+    const CTemporaryFolder folder;
+    const auto with = [&](const std::string& command, const std::string& more = "") {
+        const auto ini = folder.write(
+            "my.ini",
+            "[selection]\ndetector = external\n[external]\ncommand = " + command + "\n" + more);
+        return slam(ini, simulatedLog(), folder / "out");
+    };
+    const auto regions =
+        folder.write("regions", "1.0\n2\n320 200 0.01 0 0.01\n330 210 0.01 0 0.01\n");
+    EXPECT_EQ(with("sh -c \"cp " + regions + " {regions}; test -s {image}\"").exitCode, 0);
+    fs::remove_all(folder / "out");
+    const auto fails = [&](const TProcessResult& result, const std::string& part) {
+        EXPECT_EQ(result.exitCode, 1) << result.output;
+        EXPECT_NE(result.output.find("salma-slam: external detector '"), std::string::npos)
+            << result.output;
+        EXPECT_NE(result.output.find(part), std::string::npos) << result.output;
+        EXPECT_FALSE(fs::exists(folder / "out"));
+    };
+    fails(with("sh -c \"kill -SEGV $$\" {image} {regions}"), "Segmentation fault");
+    fails(with("sh -c \"sleep 100\" {image} {regions}", "time_limit_s = 0.1\n"),
+          "did not end within");
+    fails(with("cp {image} {regions}"), "wrote no good region file, line:1");
+    EXPECT_EQ(with("").exitCode, 1);
+}
+
 TEST(SalmaSlam, LeavesNoFolderWhenItIsKilled) {
     const CTemporaryFolder folder;
     const auto killed = runProcess({"timeout", "-s", "KILL", "0.5", program("salma-slam"), kConfig,

@@ -3,8 +3,10 @@
 #include <salma/landmarks/CEntityDetector.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
+#include "CTemporaryFolder.h"
 #include "TestScene.h"
 
 namespace salma::landmarks {
@@ -95,6 +97,22 @@ TEST(CEntityDetector, FindsNothingInAPictureOfOneColour) {
         EXPECT_TRUE(found.regions.empty());
         EXPECT_THROW(detect(detector, cv::Mat(480, 640, CV_16UC1)), std::invalid_argument);
     }
+}
+
+TEST(CEntityDetector, TakesTheRegionsOfAnotherProgramAsDiscsOfTheirArea) {
+    const salma::test::CTemporaryFolder folder;
+    const auto regions = folder.write("regions", "1.0\n1\n40 30 0.01 0 0.04\n");
+    TDetectionOptions options;
+    options.selection.detector = EDetector::external;
+    EXPECT_THROW(CEntityDetector{options}, std::invalid_argument) << "no command";
+    options.external.command = "cp " + regions + " {regions} --no-clobber --suffix {image}";
+    const auto found = CEntityDetector(options).detect(picture());
+    ASSERT_EQ(found.regions.size(), 1u);
+    EXPECT_EQ(found.regions[0].x, 40);
+    EXPECT_NEAR(found.regions[0].s, std::sqrt(10 * 5), 1e-9);
+    EXPECT_TRUE(found.areas.empty());
+    options.external.command = "false {image} {regions}";
+    EXPECT_THROW(CEntityDetector(options).detect(picture()), std::runtime_error);
 }
 
 }  // namespace

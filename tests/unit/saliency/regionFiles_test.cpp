@@ -61,12 +61,31 @@ TEST(regionFiles, ReadADescriptorLengthOfZeroAsNone) {
     EXPECT_EQ(readVgg(file)[0].b, 0.1);
 }
 
+TEST(regionFiles, LeaveDescriptorsOut) {
+    // As compute_descriptors of the benchmark writes them.
+    const std::string text = "3\n2\n1 2 0.5 0.1 0.5 17 0 255\n3 4 0.5 0 0.5 1 2 3\n";
+    const auto regions = readVgg(folder().write("described.vgg", text));
+    ASSERT_EQ(regions.size(), 2u);
+    EXPECT_EQ(regions[1].u, 3);
+    EXPECT_EQ(complaint("3\n1\n1 2 0.5 0.1 0.5\n"), "broken.vgg:3: expected 8 numbers, got 5");
+    EXPECT_EQ(complaint("3\n1\n1 2 0.5 0.1 0.5 1 2 x\n"),
+              "broken.vgg:3: 'x' is not a finite number");
+}
+
+TEST(regionFiles, RefuseMoreRegionsThanAreWanted) {
+    const std::string file = folder().write("two.vgg", "1.0\n2\n1 2 1 0 1\n1 2 1 0 1\n");
+    EXPECT_EQ(readVgg(file, 2).size(), 2u);
+    EXPECT_THROW(readVgg(file, 1), std::runtime_error);
+}
+
 TEST(regionFiles, NameFileLineAndMistake) {
     EXPECT_EQ(complaint(""), "broken.vgg:0: file ends before the descriptor length 1.0");
-    EXPECT_EQ(complaint("128\n0\n"), "broken.vgg:1: descriptor length is not 1.0 (or 0): none");
+    for (const std::string length : {"-1", "1.5", "1001"})
+        EXPECT_EQ(complaint(length + "\n0\n"),
+                  "broken.vgg:1: descriptor length is not a whole number from 0 to 1000");
     EXPECT_EQ(complaint("1.0\n"), "broken.vgg:1: file ends before the number of regions");
     EXPECT_EQ(complaint("1.0\n-1\n"),
-              "broken.vgg:2: number of regions is not a whole number from 0 to 1e9");
+              "broken.vgg:2: number of regions is not a whole number from 0 to 1000000000");
     EXPECT_EQ(complaint("1.0\n1\n1 2 3 0 x3\n"), "broken.vgg:3: 'x3' is not a finite number");
     EXPECT_EQ(complaint("1.0\n1\n1 nan 3 0 3\n"), "broken.vgg:3: 'nan' is not a finite number");
     EXPECT_EQ(complaint("1.0\n1\n1 2 3 0\n"), "broken.vgg:3: expected 5 numbers, got 4");

@@ -3,6 +3,7 @@
 
 #include <salma/landmarks/CEntitySelector.h>
 #include <salma/saliency/CClusterer.h>
+#include <salma/saliency/CExternalDetector.h>
 #include <salma/saliency/CQuadrilaterals.h>
 #include <salma/saliency/CScaleSaliency.h>
 #include <salma/saliency/CStableRegions.h>
@@ -19,6 +20,7 @@ struct TDetectionOptions {
     saliency::TClusteringOptions clustering;
     saliency::TStableRegionsOptions mser;
     saliency::TQuadOptions quad;
+    saliency::TExternalOptions external;
 };
 
 /** Finds what entities are made of, in a picture alone.
@@ -28,6 +30,7 @@ struct TDetectionOptions {
  *   has; each also joins the smaller ones inside it.
  * - `both`: the salient regions, joined where their centres lie in one stable region.
  * - `quad`: closed four-sided contours, each as five points inside it that belong together.
+ * - `external`: those of another program, as discs of their area.
  *
  * All give regions and the areas that join them; what follows is the same for each. A picture that
  * is darker than `brightness` is brought to it first: thresholds are in grey levels, and a camera's
@@ -37,7 +40,8 @@ class CEntityDetector {
     /// \throw std::invalid_argument if options are out of range.
     explicit CEntityDetector(const TDetectionOptions& options = {});
 
-    /// \param grey CV_8UC1. \throw std::invalid_argument for another type of picture.
+    /// \param grey CV_8UC1. \throw std::invalid_argument for another type of picture;
+    /// std::runtime_error if an external program fails.
     TDetections detect(const cv::Mat& grey) const;
 
  private:
@@ -52,6 +56,7 @@ class CEntityDetector {
     std::shared_ptr<const saliency::CClusterer> m_clusterer;
     saliency::CStableRegions m_stable;
     saliency::CQuadrilaterals m_quads;
+    saliency::CExternalDetector m_external;
 };
 
 }  // namespace salma::landmarks

@@ -13,7 +13,7 @@
 namespace salma::landmarks {
 
 /// What entities are made of; see CEntityDetector.
-enum class EDetector { scaleSaliency, mser, both, quad };
+enum class EDetector { scaleSaliency, mser, both, quad, external };
 
 /// Section [selection] of config.ini.
 struct TSelectionOptions : public config::TStrictOptions<TSelectionOptions> {

@@ -12,6 +12,7 @@ void forEachSeeingSection(SEEING& seeing, VISITOR visitor) {
     visitor("clustering", seeing.clustering);
     visitor("mser", seeing.mser);
     visitor("quad", seeing.quad);
+    visitor("external", seeing.external);
     visitor("selection", seeing.selection);
     visitor("border", seeing.border);
     visitor("rectification", seeing.rectification);

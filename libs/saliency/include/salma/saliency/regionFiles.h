@@ -5,6 +5,7 @@
 #include <salma/saliency/CStableRegions.h>
 #include <salma/saliency/TEllipse.h>
 
+#include <cstddef>
 #include <opencv2/core/matx.hpp>
 #include <string>
 #include <vector>
@@ -17,11 +18,13 @@ namespace salma::saliency {
  * \throw std::runtime_error if the file cannot be written. */
 void writeVgg(const std::string& file, const std::vector<TEllipse>& regions);
 
-/** Reads what writeVgg writes. The first number may be 0 as well: programs write either where
- * regions have no descriptor.
+/** Reads what writeVgg and the programs of the benchmark write. The first number is the length of
+ * the descriptors that follow each ellipse in its line; they are left out. 1.0 and 0 both stand for
+ * none: programs write either.
+ * \param most More regions are an error.
  * \throw std::runtime_error if the file cannot be read, or "FILE:LINE: problem" if a line is not
  * what it should be, an ellipse is not one, or lines are missing or too many. */
-std::vector<TEllipse> readVgg(const std::string& file);
+std::vector<TEllipse> readVgg(const std::string& file, std::size_t most = 1000000000);
 
 /** Reads a homography of the same benchmark, or of HPatches: three lines of three numbers.
  * \throw std::runtime_error if the file cannot be read, "FILE:LINE: problem" if a line is not what
