@@ -46,7 +46,6 @@ void CSlamApp::initialize(const TSlamArguments& arguments) {
     if (!arguments.association.empty()) setMethod(arguments.association, m_config);
     if (arguments.seed >= 0) setSeed(arguments.seed, m_config);
     m_config.ekf.ignoreIdentities |= arguments.ignoreIdentities;
-    m_config.landmarkMap.ignoreIdentities |= arguments.ignoreIdentities;
     m_out = std::make_unique<COutputFolder>(arguments.out);  // a bad place is found before the work
     if (m_arguments.rawlog.empty() && !m_config.run.rawlog.empty())
         m_arguments.rawlog =

@@ -24,7 +24,6 @@ void forEachSection(CONFIG& c, VISITOR visitor) {
     visitor("tracking", c.tracking);
     visitor("ekf", c.ekf);
     visitor("rbpf", c.rbpf);
-    visitor("landmark_map", c.landmarkMap);
     visitor("odometry", c.odometry);
     visitor("range_bearing", c.rangeBearing);
 }

@@ -50,7 +50,6 @@ struct TSlamConfig {
     landmarks::TTrackingOptions tracking;
     slam::TEkfOptions ekf;
     slam::TRbpfOptions rbpf;
-    slam::TLandmarkMapOptions landmarkMap;
     slam::TOdometryOptions odometry;
     slam::TRangeBearingOptions rangeBearing;
 

@@ -35,12 +35,27 @@ std::vector<std::string> namesOf(const std::vector<std::pair<std::string, ENUM>>
     return names;
 }
 
+/// What a landmark is does not depend on the filter: the particles take the keys of [ekf] for it.
+slam::TLandmarkMapOptions landmarkMapOf(const TSlamConfig& config) {
+    slam::TLandmarkMapOptions options;
+    options.ignoreIdentities = config.ekf.ignoreIdentities;
+    options.minSightingsCorner = config.ekf.minSightingsCorner;
+    options.provisionalSteps = config.ekf.provisionalSteps;
+    options.maxPatches = config.ekf.maxPatches;
+    options.patchSpread = config.ekf.patchSpread;
+    options.decorrelation = config.ekf.decorrelation;
+    options.trackGap = config.ekf.trackGap;
+    options.headingSigma = config.rbpf.headingSigma;
+    return options;
+}
+
 }  // namespace
 
 std::unique_ptr<slam::CSlamBackend> createBackend(const TSlamConfig& config) {
     if (config.run.backend == EBackend::rbpf) {
-        const slam::TLandmarkMapSetup maps{config.landmarkMap, config.association, config.matcher,
-                                           config.regionMatcher, config.rangeBearing};
+        const slam::TLandmarkMapSetup maps{landmarkMapOf(config), config.association,
+                                           config.matcher, config.regionMatcher,
+                                           config.rangeBearing};
         return std::make_unique<slam::CSalientRBPF2D>(config.rbpf, maps);
     }
     if (config.ekf.state == slam::EState::space)

@@ -33,6 +33,10 @@ void TLandmarkMapOptions::visit(config::COptionVisitor& v) {
               "least difference in viewing angle between two kept views");
     v.degrees("heading_sigma_deg", headingSigma, config::between(0, 45),
               "uncertainty of a particle's heading where directions of walls are compared");
+    v.degrees("decorrelation_deg", decorrelation, config::between(0, 180),
+              "appearance counts again in one track after this change of the viewing angle");
+    v.number("track_gap_s", trackGap, config::atLeast(0),
+             "a landmark not paired for longer begins another track");
 }
 
 void TLandmarkMapSetup::load(const mrpt::config::CConfigFileBase& file, const std::string& prefix) {

@@ -91,7 +91,9 @@ bool CSalientLandmarkMap::internal_canComputeObservationLikelihood(
 double CSalientLandmarkMap::internal_computeObservationLikelihood(
     const mrpt::obs::CObservation& observation, const mrpt::poses::CPose3D& takenFrom) const {
     const auto measurements = measurementsOf(observation, m_setup->options());
-    return measurements ? logLikelihood(*measurements, mrpt::poses::CPose2D(takenFrom)) : 0;
+    return measurements ? logLikelihood(*measurements, mrpt::poses::CPose2D(takenFrom),
+                                        mrpt::Clock::toDouble(observation.timestamp))
+                        : 0;
 }
 
 // ---- Streams
@@ -167,11 +169,14 @@ void writeLandmark(CArchive& out, const TLandmark& l, bool complete) {
         << l.identity.has_value() << static_cast<std::int32_t>(l.identity.value_or(0))
         << l.wallAngle << l.wallAngleSigma << l.firstWallAngle << l.firstMean.x << l.firstMean.y;
     writeNumbers(out, l.firstCovariance);
-    out << static_cast<std::uint64_t>(l.sightings) << l.firstTime << l.lastTime;
+    out << static_cast<std::uint64_t>(l.sightings) << l.firstTime << l.lastTime
+        << l.countedAngle.has_value() << l.countedAngle.value_or(0)
+        << static_cast<std::uint32_t>(l.lookAlikes.size());
+    for (const int other : l.lookAlikes) out << static_cast<std::int32_t>(other);
     writeViews(out, l.views, complete);
 }
 
-TLandmark readLandmark(CArchive& in, bool complete) {
+TLandmark readLandmark(CArchive& in, bool complete, std::uint8_t version) {
     TLandmark l;
     l.id = in.ReadAs<std::int32_t>();
     l.kind = in.ReadAs<std::uint8_t>() == 0 ? ELandmarkKind::salient : ELandmarkKind::corner;
@@ -183,6 +188,13 @@ TLandmark readLandmark(CArchive& in, bool complete) {
     readNumbers(in, l.firstCovariance);
     l.sightings = static_cast<std::size_t>(in.ReadAs<std::uint64_t>());
     in >> l.firstTime >> l.lastTime;
+    if (version > 0) {  // version 0 counted appearance each time
+        const bool counted = in.ReadAs<bool>();
+        const double angle = in.ReadAs<double>();
+        if (counted) l.countedAngle = angle;
+        const auto others = readCount(in, kMostLandmarks, "look-alikes of a landmark");
+        for (std::uint32_t k = 0; k < others; ++k) l.lookAlikes.insert(in.ReadAs<std::int32_t>());
+    }
     l.views = readViews(in, complete);
     return l;
 }
@@ -195,7 +207,7 @@ std::shared_ptr<const CLandmarkMapSetup> setupOf(const std::string& ini) {
 
 }  // namespace
 
-std::uint8_t CSalientLandmarkMap::serializeGetVersion() const { return 0; }
+std::uint8_t CSalientLandmarkMap::serializeGetVersion() const { return 1; }
 
 void CSalientLandmarkMap::serializeTo(CArchive& out) const {
     const bool complete = !isMemory(out);
@@ -217,9 +229,9 @@ void CSalientLandmarkMap::serializeTo(CArchive& out) const {
 }
 
 void CSalientLandmarkMap::serializeFrom(CArchive& in, std::uint8_t version) {
-    if (version != 0)
+    if (version > 1)
         throw std::runtime_error("A landmark map of version " + std::to_string(version) +
-                                 "; this program knows version 0");
+                                 "; this program knows versions 0 and 1");
     const bool complete = in.ReadAs<bool>();
     if (complete) {
         m_setup = setupOf(in.ReadAs<std::string>());
@@ -232,6 +244,7 @@ void CSalientLandmarkMap::serializeFrom(CArchive& in, std::uint8_t version) {
                 "A landmark map was read from memory after the map that wrote it had gone");
         m_setup = found;
     }
+    m_ratio = m_setup->patchRatio();
     const auto& options = m_setup->options().map;
     m_table = CLandmarkTable(options.maxPatches, options.patchSpread);
     m_outcomes = {};
@@ -248,7 +261,7 @@ void CSalientLandmarkMap::serializeFrom(CArchive& in, std::uint8_t version) {
         readNumbers(in, place.covariance);
         place.born = static_cast<std::size_t>(in.ReadAs<std::uint64_t>());
         m_places.push_back(place);
-        landmarks.push_back(readLandmark(in, complete));
+        landmarks.push_back(readLandmark(in, complete, version));
     }
     m_table.restore(std::move(landmarks), nextId);
 }

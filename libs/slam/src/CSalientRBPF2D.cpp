@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <mrpt/bayes/CParticleFilter.h>
+#include <mrpt/math/wrap2pi.h>
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CSensoryFrame.h>
@@ -7,8 +8,10 @@
 #include <mrpt/random/RandomGenerators.h>
 #include <salma/slam/CSalientRBPF2D.h>
 #include <salma/slam/CSharedParts.h>
+#include <salma/slam/rangeBearingModel.h>
 #include <salma/slam/registerClasses.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -25,6 +28,19 @@ using mrpt::bayes::CParticleFilter;
 namespace {
 
 constexpr std::size_t kStepsBetweenCleanings = 50;
+constexpr double kOdometryShare = 0.1;  // of the moves, drawn without regard to measurements
+
+/// What keeps the covariance of a robot at rest positive definite.
+Eigen::Matrix3d leastMotion() { return Eigen::Vector3d(1e-10, 1e-10, 1e-12).asDiagonal(); }
+
+/// Log density, but for a constant.
+double logNormal(const Eigen::Vector3d& pose, const CSalientLandmarkMap::TPoseBelief& belief) {
+    Eigen::Vector3d off = pose - belief.mean;
+    off[2] = mrpt::math::wrapToPi(off[2]);
+    const Eigen::LLT<Eigen::Matrix3d> factor(belief.covariance);
+    return -0.5 * factor.matrixL().solve(off).squaredNorm() -
+           std::log(factor.matrixLLT().diagonal().prod());
+}
 
 CParticleFilter::TParticleFilterOptions filterOptions(const TRbpfOptions& options) {
     CParticleFilter::TParticleFilterOptions result;
@@ -77,7 +93,9 @@ CSalientLandmarkMap& CSalientRBPF2D::mapOf(std::size_t particle) const {
 
 void CSalientRBPF2D::process(const TStepInput& step) {
     checkStep(step);
+    refuseWeights();
     move(step);
+    refuseWeights();
     m_steps.push_back({step, pose().cov.asEigen()});
     for (auto& m : m_steps.back().input.measurements) m.patch.reset();  // the maps keep what counts
     keepDecisions();
@@ -101,11 +119,72 @@ void CSalientRBPF2D::move(const TStepInput& step) {
             if (m.patch) CSharedParts<observations::TPatch>::instance().numberOf(m.patch);
         seen.insert(observation);
     }
-    CParticleFilter filter;
-    filter.setMinLoggingLevel(mrpt::system::LVL_ERROR);
-    filter.m_options = filterOptions(m_options);
-    filter.executeOn(*m_particles, &actions, &seen);
+    if (m_options.algorithm == EParticleAlgorithm::measured) {
+        moveByMeasurements(step);
+    } else {
+        CParticleFilter filter;
+        filter.setMinLoggingLevel(mrpt::system::LVL_ERROR);
+        filter.m_options = filterOptions(m_options);
+        filter.executeOn(*m_particles, &actions, &seen);
+    }
     if (!step.measurements.empty()) m_particles->insertObservation(seen);
+}
+
+/* The proposal of FastSLAM 2.0. Some moves are drawn from odometry alone, so that a wrong
+ * association costs samples, not the particle: weights stay below likelihood / kOdometryShare. */
+double CSalientRBPF2D::moveOne(std::size_t particle, const TStepInput& step) {
+    auto& random = mrpt::random::getRandomGenerator();
+    bool known = false;
+    const auto last = m_particles->getLastPose(particle, known);
+    const auto& increment = step.increment.mean;
+    const TMotion motion =
+        moved({last.x, last.y, last.yaw}, {increment.x(), increment.y(), increment.phi()});
+    const CSalientLandmarkMap& map = mapOf(particle);
+    CSalientLandmarkMap::TPoseBelief odometry{motion.pose, leastMotion()};
+    odometry.covariance +=
+        motion.byIncrement * step.increment.cov.asEigen() * motion.byIncrement.transpose();
+    const bool sees = !step.measurements.empty();
+    const auto told =
+        sees ? map.corrected(step.measurements, odometry, step.time, m_options.weightPower)
+             : odometry;
+    const bool byOdometry = random.drawUniform(0, 1) < kOdometryShare;
+    const auto& from = byOdometry ? odometry : told;
+    Eigen::Vector3d unit;
+    for (int i = 0; i < 3; ++i) unit[i] = random.drawGaussian1D_normalized();
+    const Eigen::Matrix3d root = from.covariance.llt().matrixL();
+    Eigen::Vector3d pose = from.mean + root * unit;
+    pose[2] = mrpt::math::wrapToPi(pose[2]);
+    m_particles->m_particles[particle].d->robotPath.emplace_back(pose[0], pose[1], 0, pose[2], 0,
+                                                                 0);
+    if (!sees) return 0;
+    const double prior = logNormal(pose, odometry);
+    const double proposal = std::log(kOdometryShare * std::exp(prior) +
+                                     (1 - kOdometryShare) * std::exp(logNormal(pose, told)));
+    const double likelihood = map.logLikelihood(
+        step.measurements, mrpt::poses::CPose2D(pose[0], pose[1], pose[2]), step.time);
+    return m_options.weightPower * likelihood + prior - proposal;
+}
+
+void CSalientRBPF2D::moveByMeasurements(const TStepInput& step) {
+    auto& particles = m_particles->m_particles;
+    for (std::size_t i = 0; i < particles.size(); ++i) particles[i].log_w += moveOne(i, step);
+    refuseWeights();
+    m_particles->normalizeWeights();
+    if (m_particles->ESS() < m_options.resampleBelow)
+        m_particles->performResampling(filterOptions(m_options));
+}
+
+/// A weight that is no number, or of zero, becomes the smallest of the others.
+void CSalientRBPF2D::refuseWeights() {
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& particle : m_particles->m_particles)
+        if (std::isfinite(particle.log_w)) least = std::min(least, particle.log_w);
+    if (!std::isfinite(least)) least = 0;
+    for (auto& particle : m_particles->m_particles) {
+        if (std::isfinite(particle.log_w)) continue;
+        particle.log_w = least;
+        ++m_refusedWeights;
+    }
 }
 
 void CSalientRBPF2D::keepDecisions() {
@@ -147,6 +226,7 @@ void CSalientRBPF2D::results(TRunRecord& record) const {
     record.associations.clear();
     record.candidates.clear();
     record.innovations.clear();
+    if (m_refusedWeights > 0) record.refused["weights of particles, no number"] = m_refusedWeights;
     const std::size_t particle = best();
     const CSalientLandmarkMap& map = mapOf(particle);
     noteTrajectory(particle, record);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace salma::slam {
 namespace {
@@ -25,17 +26,19 @@ CStepEvidence::CStepEvidence(const TEvidenceLimits& limits,
                              const CLandmarkTable& landmarks,
                              const PatchRatio& ratio,
                              const association::TAssociationProblem& problem,
-                             double time)
+                             double time,
+                             std::vector<std::size_t> selected)
     : m_limits(limits),
       m_landmarks(landmarks),
       m_ratio(ratio),
       m_time(time),
+      m_selected(std::move(selected)),
       m_measurements(problem.measurements),
       m_goesOn(problem.measurements.size(), false) {
     const association::CJointInnovation alone(problem);
     const double gate = gateOf(m_limits.gateQuantile);
     for (std::size_t i = 0; i < m_measurements.size(); ++i)
-        for (std::size_t j = 0; j < m_landmarks.size() && !m_goesOn[i]; ++j) {
+        for (std::size_t j = 0; j < problem.landmarks.size() && !m_goesOn[i]; ++j) {
             if (!m_measurements[i].z.allFinite() || !isInTrack(i, j)) continue;
             const auto test = alone.test(i, j);
             m_goesOn[i] = test && test->distance2 <= gate && raw(i, j) > m_limits.forbid;
@@ -43,7 +46,7 @@ CStepEvidence::CStepEvidence(const TEvidenceLimits& limits,
 }
 
 bool CStepEvidence::isInTrack(std::size_t observation, std::size_t landmark) const {
-    const TLandmark& known = m_landmarks[landmark];
+    const TLandmark& known = m_landmarks[inTable(landmark)];
     if (!m_measurements[observation].patch || !known.countedAngle) return false;
     const double angle = viewingAngle(m_measurements[observation]);
     return m_time - known.lastTime <= m_limits.trackGap &&
@@ -55,8 +58,8 @@ double CStepEvidence::raw(std::size_t observation, std::size_t landmark) {
     if (!patch) return std::numeric_limits<double>::quiet_NaN();
     const auto [entry, isNew] = m_raw.insert({{observation, landmark}, 0});
     if (isNew)
-        entry->second = withLookAlikes(m_landmarks.bestRatio(landmark, *patch, m_ratio),
-                                       m_landmarks.lookAlikeShare(landmark));
+        entry->second = withLookAlikes(m_landmarks.bestRatio(inTable(landmark), *patch, m_ratio),
+                                       m_landmarks.lookAlikeShare(inTable(landmark)));
     return entry->second;
 }
 

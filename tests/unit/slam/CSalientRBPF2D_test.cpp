@@ -60,9 +60,10 @@ TOutcome drive(const TRbpfOptions& rbpf, const TLandmarkMapSetup& maps, std::uin
     return result;
 }
 
-TEST(CSalientRBPF2D, MapsWithEveryAlgorithmOfMrptThatNeedsNoOtherMap) {
-    for (const auto algorithm : {EParticleAlgorithm::standard, EParticleAlgorithm::auxiliary,
-                                 EParticleAlgorithm::auxiliaryOptimal}) {
+TEST(CSalientRBPF2D, MapsWithEveryAlgorithm) {
+    for (const auto algorithm :
+         {EParticleAlgorithm::standard, EParticleAlgorithm::auxiliary,
+          EParticleAlgorithm::auxiliaryOptimal, EParticleAlgorithm::measured}) {
         TRbpfOptions rbpf = options(30, algorithm);
         rbpf.samples = 10;
         const TOutcome outcome = drive(rbpf, setup(false), 1);
@@ -86,6 +87,41 @@ TEST(CSalientRBPF2D, TellsLandmarksApartByGeometry) {
     std::cout << "path " << sum / 4 << " m, odometry alone " << odometry / 4 << " m" << std::endl;
     EXPECT_LT(sum, 0.5 * odometry);
     EXPECT_LE(landmarks, 4u * 36u);
+}
+
+TEST(CSalientRBPF2D, FollowsThePathMoreCloselyWhereMeasurementsMoveTheParticles) {
+    double byOdometry = 0, byMeasurements = 0;
+    for (std::uint32_t seed = 1; seed <= 3; ++seed) {
+        byOdometry += drive(options(30), setup(true), seed).rms / 3;
+        byMeasurements +=
+            drive(options(30, EParticleAlgorithm::measured), setup(true), seed).rms / 3;
+    }
+    std::cout << "path " << byOdometry << " m by odometry, " << byMeasurements
+              << " m by measurements too" << std::endl;
+    EXPECT_LT(byMeasurements, 0.7 * byOdometry);
+}
+
+TEST(CSalientRBPF2D, CountsAndMendsWeightsThatAreNoneOrNoNumbers) {
+    for (const auto algorithm : {EParticleAlgorithm::standard, EParticleAlgorithm::measured}) {
+        CSalientRBPF2D filter(options(4, algorithm), setup(true));
+        test::CTestWorld world(1);
+        for (int k = 0; k < 5; ++k) filter.process(world.next());
+        // Only MRPT's own programs can do this; a test may stand for them.
+        auto& particles =
+            const_cast<mrpt::maps::CMultiMetricMapPDF&>(filter.particles()).m_particles;
+        for (auto& particle : particles) particle.log_w = -std::numeric_limits<double>::infinity();
+        filter.process(world.next());
+        EXPECT_EQ(filter.refusedWeights(), 4u);
+        particles[1].log_w = std::numeric_limits<double>::quiet_NaN();
+        filter.process(world.next());
+        EXPECT_EQ(filter.refusedWeights(), 5u);
+        EXPECT_TRUE(filter.pose().cov.asEigen().allFinite());
+        EXPECT_TRUE(std::isfinite(filter.pose().mean.x()));
+        for (const auto& particle : particles) EXPECT_TRUE(std::isfinite(particle.log_w));
+        TRunRecord record;
+        filter.results(record);
+        EXPECT_EQ(record.refused.size(), 1u);
+    }
 }
 
 TEST(CSalientRBPF2D, GivesTheSameForTheSameSeed) {
@@ -127,28 +163,30 @@ TEST(CSalientRBPF2D, RecordsTheAssociationsOfOneLineOfParticles) {
 }
 
 TEST(CSalientRBPF2D, SurvivesStepsWithoutMeasurementAndRefusesUnsoundOnes) {
-    CSalientRBPF2D filter(options(5), setup(true));
-    TStepInput step;
-    step.increment.mean = {1, 0, 0};
-    step.increment.cov.setDiagonal(1e-4);
-    filter.process(step);
-    EXPECT_NEAR(filter.pose().mean.x(), 1, 0.1);
-    step.increment.cov.setDiagonal(0);
-    filter.process(step);  // at rest as the log sees it, or known exactly
-    EXPECT_NEAR(filter.pose().mean.x(), 2, 0.1);
-    association::TMeasurement wild;
-    wild.z = {std::numeric_limits<double>::quiet_NaN(), 0};
-    step.measurements = {wild};
-    filter.process(step);
-    EXPECT_TRUE(std::isfinite(filter.pose().mean.x()));
-    TRunRecord record;
-    filter.results(record);
-    EXPECT_EQ(record.trajectory.size(), 3u);
-    EXPECT_TRUE(record.landmarks.empty());
-    ASSERT_EQ(record.associations.size(), 1u);
-    EXPECT_EQ(record.associations[0].decision, EDecision::clutter);
-    step.increment.mean = {std::numeric_limits<double>::infinity(), 0, 0};
-    EXPECT_THROW(filter.process(step), std::invalid_argument);
+    for (const auto algorithm : {EParticleAlgorithm::standard, EParticleAlgorithm::measured}) {
+        CSalientRBPF2D filter(options(5, algorithm), setup(true));
+        TStepInput step;
+        step.increment.mean = {1, 0, 0};
+        step.increment.cov.setDiagonal(1e-4);
+        filter.process(step);
+        EXPECT_NEAR(filter.pose().mean.x(), 1, 0.1);
+        step.increment.cov.setDiagonal(0);
+        filter.process(step);  // at rest as the log sees it, or known exactly
+        EXPECT_NEAR(filter.pose().mean.x(), 2, 0.1);
+        association::TMeasurement wild;
+        wild.z = {std::numeric_limits<double>::quiet_NaN(), 0};
+        step.measurements = {wild};
+        filter.process(step);
+        EXPECT_TRUE(std::isfinite(filter.pose().mean.x()));
+        TRunRecord record;
+        filter.results(record);
+        EXPECT_EQ(record.trajectory.size(), 3u);
+        EXPECT_TRUE(record.landmarks.empty());
+        ASSERT_EQ(record.associations.size(), 1u);
+        EXPECT_EQ(record.associations[0].decision, EDecision::clutter);
+        step.increment.mean = {std::numeric_limits<double>::infinity(), 0, 0};
+        EXPECT_THROW(filter.process(step), std::invalid_argument);
+    }
     TRbpfOptions none;
     none.particles = 0;
     EXPECT_THROW(CSalientRBPF2D(none, {}), std::invalid_argument);

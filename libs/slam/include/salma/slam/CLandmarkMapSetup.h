@@ -4,6 +4,7 @@
 #include <mrpt/core/bits_math.h>
 #include <salma/appearance/CPatchMatcher.h>
 #include <salma/association/CDataAssociator.h>
+#include <salma/slam/CLandmarkTable.h>
 #include <salma/slam/rangeBearing.h>
 
 #include <memory>
@@ -11,7 +12,7 @@
 
 namespace salma::slam {
 
-/// Section [landmark_map] of config.ini, `..._insertOpts` in the ini files of MRPT's programs.
+/// `..._insertOpts` in the ini files of MRPT's programs; salma-slam fills it from [ekf] and [rbpf].
 struct TLandmarkMapOptions : public config::TStrictOptions<TLandmarkMapOptions> {
     bool ignoreIdentities{false};  //!< Identities in the log are not read.
     int minSightingsCorner{3};     //!< Sightings before a corner counts as a landmark.
@@ -21,6 +22,9 @@ struct TLandmarkMapOptions : public config::TStrictOptions<TLandmarkMapOptions> 
 
     /// A particle's heading is a sample: walls are compared with this uncertainty of it [rad].
     double headingSigma{mrpt::DEG2RAD(1.0)};
+    /// In one track appearance counts again after this change of the viewing angle [rad].
+    double decorrelation{mrpt::DEG2RAD(35.0)};
+    double trackGap{10};  //!< A landmark that was not paired for longer begins another track [s].
 
     void visit(config::COptionVisitor& v);
 };
@@ -57,6 +61,10 @@ class CLandmarkMapSetup {
 
     /// Log likelihood ratio of a seen patch and a stored one.
     double logRatio(const observations::TPatch& seen, const observations::TPatch& stored) const;
+    /// The same as a function, which must not outlive this object.
+    PatchRatio patchRatio() const {
+        return [this](const auto& seen, const auto& stored) { return logRatio(seen, stored); };
+    }
 
  private:
     struct TMemory;

@@ -6,6 +6,7 @@
 #include <mrpt/maps/TMetricMapTypesRegistry.h>
 #include <salma/slam/CLandmarkMapSetup.h>
 #include <salma/slam/CLandmarkTable.h>
+#include <salma/slam/CStepEvidence.h>
 
 #include <memory>
 #include <vector>
@@ -24,6 +25,7 @@ namespace salma::slam {
  *   log( lambda + sum over landmarks P_D LR N(z; predicted, S) ),
  * LR the likelihood ratio of the appearance (1 without), lambda the density of landmarks that are
  * not in the map: no measurement is forced onto a landmark, and none counts less than a new one.
+ * Appearance counts once per track and landmark (CStepEvidence), here and in the association.
  *
  * Copies share the patches and the options (CSharedParts): MRPT copies maps through a memory
  * stream, which then holds geometry and numbers only and can be read as long as the map that wrote
@@ -49,9 +51,30 @@ class CSalientLandmarkMap : public mrpt::maps::CMetricMap {
     bool isConfirmed(std::size_t index) const;
 
     /// Log likelihood of measurements (robot frame) from a pose; those that are not finite or whose
-    /// covariance is not positive definite do not count.
+    /// covariance is not positive definite do not count. \param time [s since 1970]
     double logLikelihood(const std::vector<association::TMeasurement>& measurements,
-                         const mrpt::poses::CPose2D& pose) const;
+                         const mrpt::poses::CPose2D& pose,
+                         double time) const;
+
+    /// A pose that is not known exactly.
+    struct TPoseBelief {
+        Eigen::Vector3d mean{0, 0, 0};  //!< (x, y, heading) [m, rad]
+        Eigen::Matrix3d covariance{Eigen::Matrix3d::Zero()};
+    };
+
+    /** Where motion and measurements together say that the robot is: the proposal of FastSLAM 2.0.
+     *
+     * The measurements are associated with confirmed landmarks given how sure the motion is; what
+     * is paired corrects it, linearised anew at each of a few iterations.
+     * \param predicted By the motion alone; its covariance must be positive definite.
+     * \param power Exponent of the likelihood: measurements count as if R and the landmarks'
+     * covariances were larger by its inverse.
+     * \return `predicted` where nothing is paired or the result is not finite.
+     * Source: Montemerlo, Thrun, Koller, Wegbreit, FastSLAM 2.0, IJCAI 2003, eqs. 9 to 12. */
+    TPoseBelief corrected(const std::vector<association::TMeasurement>& measurements,
+                          const TPoseBelief& predicted,
+                          double time,
+                          double power) const;
 
     /// Associates the measurements and learns from them. \param time [s since 1970]
     void learn(const std::vector<association::TMeasurement>& measurements,
@@ -99,13 +122,20 @@ class CSalientLandmarkMap : public mrpt::maps::CMetricMap {
     bool internal_canComputeObservationLikelihood(
         const mrpt::obs::CObservation& observation) const override;
 
-    double density(const association::TMeasurement& measurement, const Eigen::Vector3d& pose) const;
     std::vector<std::size_t> near(const std::vector<association::TMeasurement>& measurements,
-                                  const Eigen::Vector3d& pose) const;
+                                  const TPoseBelief& pose) const;
+    /// The problem points to no other object; it has no ratios.
     association::TAssociationProblem problem(
         const std::vector<association::TMeasurement>& measurements,
         const std::vector<std::size_t>& landmarks,
-        const Eigen::Vector3d& pose) const;
+        const TPoseBelief& pose) const;
+    std::unique_ptr<CStepEvidence> evidenceOf(const association::TAssociationProblem& problem,
+                                              const std::vector<std::size_t>& landmarks,
+                                              double time) const;
+    double density(const association::TAssociationProblem& problem,
+                   const std::vector<std::size_t>& landmarks,
+                   std::size_t observation,
+                   CStepEvidence* evidence) const;
     void update(std::size_t index,
                 const association::TMeasurement& measurement,
                 const Eigen::Vector3d& pose,
@@ -116,6 +146,7 @@ class CSalientLandmarkMap : public mrpt::maps::CMetricMap {
     void forgetProvisional();
 
     std::shared_ptr<const CLandmarkMapSetup> m_setup;
+    PatchRatio m_ratio;  //!< Of the setup.
     CLandmarkTable m_table;
     std::vector<TPlace> m_places;  //!< In the order of the table.
     std::size_t m_insertions{0};

@@ -12,7 +12,8 @@
 namespace salma::slam {
 
 /** Rao-Blackwellised SLAM with MRPT's particle filter: each particle is a path and a
- * CSalientLandmarkMap of its own, which associates for itself.
+ * CSalientLandmarkMap of its own, which associates for itself. With `algorithm = measured` the
+ * particles are moved here, by odometry and measurements together (FastSLAM 2.0).
  *
  * The record holds path, map and associations of the particle that weighs most at the end; the
  * covariance of a pose is that of all particles at the time. The random numbers are those of
@@ -28,6 +29,8 @@ class CSalientRBPF2D : public CSlamBackend {
     void results(TRunRecord& record) const override;
 
     const mrpt::maps::CMultiMetricMapPDF& particles() const { return *m_particles; }
+    /// Times that a particle's weight was zero or no number.
+    std::size_t refusedWeights() const { return m_refusedWeights; }
 
  private:
     /// What a particle decided in a step; the particles that descend from it share it.
@@ -43,6 +46,9 @@ class CSalientRBPF2D : public CSlamBackend {
     };
 
     void move(const TStepInput& step);
+    void moveByMeasurements(const TStepInput& step);
+    void refuseWeights();
+    double moveOne(std::size_t particle, const TStepInput& step);
     void keepDecisions();
     void forgetDecisions();
     std::size_t best() const;
@@ -56,6 +62,7 @@ class CSalientRBPF2D : public CSlamBackend {
     std::vector<TStep> m_steps;
     std::map<std::uint64_t, TDecided> m_decided;
     std::uint64_t m_lastKey{0};
+    std::size_t m_refusedWeights{0};
 };
 
 }  // namespace salma::slam

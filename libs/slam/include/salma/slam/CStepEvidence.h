@@ -40,14 +40,17 @@ struct TEvidenceLimits {
 class CStepEvidence {
  public:
     /** Nothing is kept of `problem`; the other arguments must outlive this object.
-     * \param problem Its measurements and predictions; `logRatio` is not used. */
+     * \param problem Its measurements and predictions; `logRatio` is not used.
+     * \param selected Indices in the table of the problem's landmarks; empty: all, in order. */
     CStepEvidence(const TEvidenceLimits& limits,
                   const CLandmarkTable& landmarks,
                   const PatchRatio& ratio,
                   const association::TAssociationProblem& problem,
-                  double time);
+                  double time,
+                  std::vector<std::size_t> selected = {});
 
-    /// Log likelihood ratio that counts; NaN where appearance cannot tell.
+    /// Log likelihood ratio that counts; NaN where appearance cannot tell. Landmarks are counted
+    /// as the problem does.
     double logRatio(std::size_t observation, std::size_t landmark);
 
     /// True if a pairing uses the appearance up: it has one, and does not go on with a track.
@@ -57,11 +60,16 @@ class CStepEvidence {
     using TPair = std::pair<std::size_t, std::size_t>;
     double raw(std::size_t observation, std::size_t landmark);
     bool isInTrack(std::size_t observation, std::size_t landmark) const;
+    /// Index in the table.
+    std::size_t inTable(std::size_t landmark) const {
+        return m_selected.empty() ? landmark : m_selected[landmark];
+    }
 
     const TEvidenceLimits m_limits;
     const CLandmarkTable& m_landmarks;
     const PatchRatio& m_ratio;
     const double m_time;
+    const std::vector<std::size_t> m_selected;
     std::vector<association::TMeasurement> m_measurements;
     std::vector<bool> m_goesOn;  //!< By measurement: with some track.
     std::map<TPair, double> m_raw;
