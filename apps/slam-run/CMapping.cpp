@@ -14,6 +14,11 @@
 #include "measurements.h"
 
 namespace salma::apps {
+namespace {
+
+constexpr double kLargestCarry = 1;  // a scan tells what is hidden within so much travel [m]
+
+}  // namespace
 
 using mrpt::obs::CObservation2DRangeScan;
 using observations::CObservationSalientLandmarks;
@@ -85,13 +90,16 @@ bool CMapping::measure(const TEvent& event,
         if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(o)) {
             if (!isDue(event)) continue;
             isStep = true;
+            step.laser = laserView(*scan);
+            step.scanned = m_config.run.corners;
             const auto lines = m_lines.extract(*scan);
             walls = lines.lines;
             if (!m_config.run.corners) continue;
             for (const auto& corner : m_corners.extract(lines).corners) addCorner(corner, step);
         } else if (const auto seen = std::dynamic_pointer_cast<CObservationSalientLandmarks>(o)) {
             for (const auto& patch : seen->landmarks) addPatch(patch, seen->cameraPose, step);
-            isStep = isStep || !seen->landmarks.empty();
+            step.camera = cameraView(*seen);
+            isStep = true;  // that nothing was found is worth knowing too
         } else if (const auto ranges =
                        std::dynamic_pointer_cast<mrpt::obs::CObservationBearingRange>(o)) {
             for (const auto& m : slam::measurementsOf(*ranges, m_config.rangeBearing))
@@ -117,6 +125,20 @@ bool CMapping::measureInSpace(const TEvent& event, slam::TStepInput& step) const
         found = true;
     }
     return found || m_log.actionFormat;
+}
+
+/// A picture is taken shortly after a scan: what that saw is carried along by odometry.
+void CMapping::noteView(const TEvent& event, slam::TStepInput& step) {
+    if (step.laser) {
+        m_laserView = step.laser;
+    } else if (m_laserView && m_lastScan) {
+        const auto moved = event.odometry - *m_lastScan;
+        if (moved.norm() > kLargestCarry) return;
+        const auto& s = m_laserView->sensor;
+        const auto sensor = mrpt::poses::CPose2D(s[0], s[1], s[2]) - moved;
+        step.laser = m_laserView;
+        step.laser->sensor << sensor.x(), sensor.y(), sensor.phi();
+    }
 }
 
 mrpt::poses::CPosePDFGaussian CMapping::incrementTo(const TEvent& event) {
@@ -161,6 +183,7 @@ void CMapping::run(const std::vector<CObservationSalientLandmarks::Ptr>& records
         if (!measure(event, step, walls)) continue;
         step.time = event.time;
         step.odometry = event.odometry;
+        noteView(event, step);
         if (first && !event.increment) m_lastOdometry = event.odometry;
         if (first) m_lastTime = event.time;
         first = false;
@@ -181,6 +204,7 @@ void CMapping::run(const std::vector<CObservationSalientLandmarks::Ptr>& records
                 keepPoints(*scan, record);
             }
     }
+    m_backend.finish();
 }
 
 }  // namespace salma::apps

@@ -42,6 +42,7 @@ class CMapping {
     bool measureInSpace(const TEvent& event, slam::TStepInput& step) const;
     bool isDue(const TEvent& event) const;
     mrpt::poses::CPosePDFGaussian incrementTo(const TEvent& event);
+    void noteView(const TEvent& event, slam::TStepInput& step);
     void keepPoints(const mrpt::obs::CObservation2DRangeScan& scan, slam::TRunRecord& record) const;
 
     const TSlamConfig& m_config;
@@ -54,6 +55,7 @@ class CMapping {
     double m_lastTime{0};                            //!< Of the last step [s].
     mrpt::poses::CPose2D m_lastOdometry;             //!< Of the last step.
     std::optional<mrpt::poses::CPose2D> m_lastScan;  //!< Odometry of the last scan that was used.
+    std::optional<slam::TLaserView> m_laserView;     //!< Of that scan, in the robot frame then.
 };
 
 }  // namespace salma::apps

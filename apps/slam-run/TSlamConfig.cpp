@@ -23,6 +23,8 @@ void forEachSection(CONFIG& c, VISITOR visitor) {
     visitor("association", c.association);
     visitor("tracking", c.tracking);
     visitor("ekf", c.ekf);
+    visitor("detection", c.detection);
+    visitor("relocation", c.relocation);
     visitor("rbpf", c.rbpf);
     visitor("odometry", c.odometry);
     visitor("range_bearing", c.rangeBearing);

@@ -11,8 +11,10 @@
 #include <salma/laser/CWallOdometry.h>
 #include <salma/slam/CLandmarkMapSetup.h>
 #include <salma/slam/COdometryNoise.h>
+#include <salma/slam/TDetectionOptions.h>
 #include <salma/slam/TEkfOptions.h>
 #include <salma/slam/TRbpfOptions.h>
+#include <salma/slam/TRelocationOptions.h>
 #include <salma/slam/rangeBearing.h>
 
 #include <cmath>
@@ -49,6 +51,8 @@ struct TSlamConfig {
     association::TAssociationOptions association;
     landmarks::TTrackingOptions tracking;
     slam::TEkfOptions ekf;
+    slam::TDetectionOptions detection;
+    slam::TRelocationOptions relocation;
     slam::TRbpfOptions rbpf;
     slam::TOdometryOptions odometry;
     slam::TRangeBearingOptions rangeBearing;

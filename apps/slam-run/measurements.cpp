@@ -4,6 +4,9 @@
 #include <salma/slam/salientMeasurement.h>
 
 #include <cmath>
+#include <limits>
+#include <memory>
+#include <vector>
 
 namespace salma::apps {
 namespace {
@@ -52,6 +55,36 @@ void addPatch(const observations::TPatch& patch,
     spot.pixel = centreOf(patch);
     spot.axisAngle = axisAngleOf(patch.pose.mean.translation(), T_r_c);
     step.spots.push_back(spot);
+}
+
+std::optional<slam::TLaserView> laserView(const mrpt::obs::CObservation2DRangeScan& scan) {
+    const std::size_t beams = scan.getScanSize();
+    if (beams < 2 || !(scan.aperture > 0) || !std::isfinite(scan.sensorPose.norm()))
+        return std::nullopt;
+    const mrpt::poses::CPose2D sensor(scan.sensorPose);
+    slam::TLaserView view;
+    view.sensor << sensor.x(), sensor.y(), sensor.phi();
+    view.spacing = scan.aperture / static_cast<double>(beams - 1);
+    view.first = -0.5 * scan.aperture;
+    auto free = std::make_shared<std::vector<float>>();
+    for (std::size_t i = 0; i < beams; ++i) {
+        const std::size_t beam = scan.rightToLeft ? i : beams - 1 - i;
+        free->push_back(scan.getScanRangeValidity(beam) ? scan.getScanRange(beam)
+                                                        : std::numeric_limits<float>::infinity());
+    }
+    view.free = free;
+    return view;
+}
+
+std::optional<slam::TCameraView> cameraView(
+    const observations::CObservationSalientLandmarks& record) {
+    if (!(record.camera.fx() > 0) || record.camera.ncols == 0) return std::nullopt;
+    const auto& T = record.cameraPose;
+    const mrpt::math::TPoint3D ahead = T.composePoint({0, 0, 1});
+    slam::TCameraView view;
+    view.camera << T.x(), T.y(), std::atan2(ahead.y - T.y(), ahead.x - T.x());
+    view.halfField = std::atan2(0.5 * record.camera.ncols, record.camera.fx());
+    return view;
 }
 
 }  // namespace salma::apps

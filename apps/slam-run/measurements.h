@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <mrpt/obs/CObservation2DRangeScan.h>
 #include <salma/laser/TLine.h>
+#include <salma/observations/CObservationSalientLandmarks.h>
 #include <salma/observations/TPatch.h>
 #include <salma/slam/CSlamBackend.h>
 
@@ -17,5 +19,12 @@ void addPatch(const observations::TPatch& patch,
               const mrpt::poses::CPose3D& T_r_c,
               slam::TStepInput& step);
 void addMeasurement(const association::TMeasurement& measurement, slam::TStepInput& step);
+
+/// What a scan saw; none where its geometry makes no sense.
+std::optional<slam::TLaserView> laserView(const mrpt::obs::CObservation2DRangeScan& scan);
+
+/// Where a picture looked; none without intrinsics.
+std::optional<slam::TCameraView> cameraView(
+    const observations::CObservationSalientLandmarks& record);
 
 }  // namespace salma::apps

@@ -2,6 +2,7 @@
 #include <mrpt/math/wrap2pi.h>
 #include <salma/landmarks/CWideBaselineTracker.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <utility>
 
@@ -58,6 +59,20 @@ void CWideBaselineTracker::beginStep() {
     };
     m_entities.erase(std::remove_if(m_entities.begin(), m_entities.end(), forgotten),
                      m_entities.end());
+}
+
+void CWideBaselineTracker::move(const Eigen::Vector3d& motion) {
+    const Eigen::Rotation2Dd turn(motion[2]);
+    const auto moveOne = [&](TSighting& sighting) {
+        sighting.position = motion.head<2>() + turn * sighting.position;
+        sighting.robot = motion.head<2>() + turn * sighting.robot;
+        if (!std::isnan(sighting.wallAngle))
+            sighting.wallAngle = mrpt::math::wrapToPi(sighting.wallAngle + motion[2]);
+    };
+    for (TEntity& entity : m_entities) {
+        moveOne(entity.last);
+        for (TSighting& view : entity.views) moveOne(view);
+    }
 }
 
 bool CWideBaselineTracker::confirms(const TSighting& sighting) {

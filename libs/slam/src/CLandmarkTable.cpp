@@ -48,6 +48,33 @@ void CLandmarkTable::erase(std::size_t index) {
     m_landmarks.erase(m_landmarks.begin() + static_cast<std::ptrdiff_t>(index));
 }
 
+void CLandmarkTable::merge(std::size_t kept, std::size_t gone) {
+    TLandmark& to = m_landmarks[kept];
+    const TLandmark& from = m_landmarks[gone];
+    to.sightings += from.sightings;
+    to.firstTime = std::min(to.firstTime, from.firstTime);
+    if (from.lastTime >= to.lastTime) to.countedAngle = from.countedAngle;
+    to.lastTime = std::max(to.lastTime, from.lastTime);
+    if (!to.identity) to.identity = from.identity;
+    if (std::isnan(to.wallAngle)) {
+        to.wallAngle = from.wallAngle;
+        to.wallAngleSigma = from.wallAngleSigma;
+    }
+    for (const int id : from.lookAlikes) {
+        if (id == to.id) continue;
+        to.lookAlikes.insert(id);
+        for (TLandmark& other : m_landmarks)
+            if (other.id == id) other.lookAlikes.insert(to.id);
+    }
+    for (const TView& view : from.views) addView(to, view);
+    erase(gone);
+}
+
+void CLandmarkTable::turn(std::size_t index, double angle) {
+    double& wall = m_landmarks[index].wallAngle;
+    wall = mrpt::math::wrapToPi(wall + angle);  // NaN stays NaN
+}
+
 void CLandmarkTable::restore(std::vector<TLandmark> landmarks, int nextId) {
     m_landmarks = std::move(landmarks);
     m_nextId = nextId;

@@ -17,6 +17,8 @@ using association::TMeasurement;
 
 namespace {
 
+constexpr double smoothingTravel = 2;  // between two estimations of the whole path [m]
+
 /// Corners have neither wall nor appearance and look the same from every side.
 landmarks::TTrackingOptions cornerTracking(const TEkfOptions& ekf) {
     landmarks::TTrackingOptions options;
@@ -38,7 +40,8 @@ double probabilityBelow(double limit, double mean, double sigma) {
 CSalientEKF2D::CSalientEKF2D(const TEkfOptions& ekf,
                              const association::TAssociationOptions& association,
                              PatchRatio ratio,
-                             const landmarks::TTrackingOptions& tracking)
+                             const landmarks::TTrackingOptions& tracking,
+                             const TMapCare& care)
     : m_ekf(ekf),
       m_associator(association::createAssociator(association)),
       m_ratio(std::move(ratio)),
@@ -46,7 +49,11 @@ CSalientEKF2D::CSalientEKF2D(const TEkfOptions& ekf,
                        association.gateQuantile},
       m_landmarks(ekf.maxPatches, ekf.patchSpread),
       m_provisionalCorners(cornerTracking(ekf)),
-      m_provisionalEntities(tracking, m_ratio) {
+      m_provisionalEntities(tracking, m_ratio),
+      m_care(care),
+      m_relocates(care.relocation.use && ekf.update == EUpdate::block &&
+                  association.method == association::EMethod::saliency),
+      m_relocator(care.relocation, care.detection) {
     m_ekf.validate();
 }
 
@@ -67,11 +74,12 @@ TFilterState CSalientEKF2D::state() {
 
 Eigen::Vector3d CSalientEKF2D::poseMean() const { return {m_xkk[0], m_xkk[1], m_xkk[2]}; }
 
-THeading CSalientEKF2D::heading() const { return {m_xkk[2], std::sqrt(m_pkk(2, 2))}; }
+THeading CSalientEKF2D::heading() const { return {m_xkk[2], std::sqrt(poseCovariance()(2, 2))}; }
 
 mrpt::poses::CPosePDFGaussian CSalientEKF2D::pose() const {
     mrpt::poses::CPosePDFGaussian result;
     getCurrentRobotPose(result);
+    result.cov = mrpt::math::CMatrixDouble33(poseCovariance());
     return result;
 }
 
@@ -86,6 +94,13 @@ void CSalientEKF2D::process(const TStepInput& step) {
     else
         stepByMrpt();
     learn();
+    if (m_relocates) {
+        remember();
+        relocate();
+        if (m_now.closesLoop && m_history.back().travel >= m_lastSmoothing + smoothingTravel)
+            smooth();
+        anchor();
+    }
     noteDecisions();
     notePose();
 }
@@ -134,7 +149,10 @@ TAssociationProblem CSalientEKF2D::problem() {
         // What lies at the border of view may be seen: three sigma are granted.
         const Eigen::Vector2d slack =
             3 * result.predictionCovariance.diagonal().segment<2>(row).cwiseSqrt();
-        expected.visible = expected.z[0] <= m_ekf.maxRange + slack[0] &&
+        const double sigma = std::max(slack[0], expected.z[0] * slack[1]) / 3;
+        m_now.sigmas.push_back(sigma);
+        expected.visible = !(m_relocates && sigma > m_care.relocation.unsure) &&
+                           expected.z[0] <= m_ekf.maxRange + slack[0] &&
                            std::abs(expected.z[1]) <= halfView + slack[1];
         visibilities.push_back(
             probabilityBelow(m_ekf.maxRange, expected.z[0], slack[0] / 3) *

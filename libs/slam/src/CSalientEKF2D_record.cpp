@@ -58,6 +58,9 @@ void CSalientEKF2D::results(TRunRecord& record) const {
     record.associations = m_record.associations;
     record.candidates = m_record.candidates;
     record.innovations = m_record.innovations;
+    record.relocations = m_record.relocations;
+    record.joins = m_record.joins;
+    record.removed = m_record.removed;
     record.landmarks.clear();
     for (std::size_t k = 0; k < m_landmarks.size(); ++k) {
         const auto row = static_cast<Eigen::Index>(3 + 2 * k);

@@ -112,6 +112,33 @@ void update(TFilterState state, const std::vector<TPairedMeasurement>& measureme
         state.covariance.transpose().triangularView<Eigen::StrictlyUpper>();
 }
 
+void anchorAtRobot(TFilterState state) {
+    auto& P = state.covariance;
+    const Eigen::Index size = P.rows();
+    // A landmark's error as seen from the robot: its own, less what the robot's error moves it by.
+    Eigen::MatrixX3d byPose = Eigen::MatrixX3d::Zero(size, 3);
+    for (Eigen::Index row = poseSize; row < size; row += 2) {
+        const Eigen::Vector2d arm = state.mean.segment<2>(row) - state.mean.head<2>();
+        byPose.middleRows<2>(row) << 1, 0, -arm.y(), 0, 1, arm.x();
+    }
+    const Eigen::Matrix3d pose = P.topLeftCorner<poseSize, poseSize>();
+    const Eigen::MatrixX3d cross = P.leftCols<poseSize>();
+    P -= cross * byPose.transpose() + byPose * cross.transpose();
+    P += byPose * pose * byPose.transpose();
+    P.topRows<poseSize>().setZero();
+    P.leftCols<poseSize>().setZero();
+    P = (0.5 * (P + P.transpose())).eval();
+}
+
+Eigen::Matrix3d carried(const Eigen::Matrix3d& covariance,
+                        const Eigen::Vector3d& base,
+                        const Eigen::Vector3d& pose) {
+    Eigen::Matrix3d A = Eigen::Matrix3d::Identity();
+    A(0, 2) = -(pose[1] - base[1]);
+    A(1, 2) = pose[0] - base[0];
+    return A * covariance * A.transpose();
+}
+
 void initializeLast(TFilterState state, const Eigen::Vector2d& z, const Eigen::Matrix2d& R) {
     const TLocated found = located(state.mean.head<poseSize>(), z);
     const Eigen::Index row = state.mean.size() - 2;

@@ -88,6 +88,16 @@ Cells cellsOf(const slam::TCandidateRow& c) {
             c.chosen ? "1" : "0"};
 }
 
+Cells cellsOf(const slam::TRelocationRow& r) {
+    return {stamp(r.time),          r.outcome,
+            nameOf(r.kind),         std::to_string(r.local),
+            std::to_string(r.left), number(r.distance),
+            number(r.logRatio),     number(r.shiftX),
+            number(r.shiftY),       number(degrees(r.turn)),
+            number(r.posters),      number(r.corners),
+            number(r.odometry),     std::isfinite(r.margin) ? number(r.margin) : ""};
+}
+
 Cells cellsOf(const slam::TInnovationRow& i) {
     return {stamp(i.time), i.component, number(i.value), number(i.sigma)};
 }
@@ -128,6 +138,8 @@ void writeSummary(const TRunRecord& record, const std::string& file) {
     json["deferred"] = counts.deferred;
     json["clutter"] = counts.clutter;
     json["relocated"] = counts.relocated;
+    json["joins"] = record.joins;
+    json["removed"] = record.removed;
     json["provisional"] = counts.provisional;
     json["pictures"] = record.pictures;
     json["pictures_without_landmark"] = record.picturesWithoutLandmark;
@@ -223,6 +235,11 @@ std::vector<std::string> candidateColumns() {
     return {"t_s", "observation", "landmark_id", "d2", "log_lr", "chosen"};
 }
 
+std::vector<std::string> relocationColumns() {
+    return {"t_s",       "outcome",   "kind",     "local_id", "left_id", "distance_m", "log_lr",
+            "shift_x_m", "shift_y_m", "turn_deg", "posters",  "corners", "odometry",   "margin"};
+}
+
 std::vector<std::string> innovationColumns() { return {"t_s", "component", "value", "sigma"}; }
 
 CRunWriter::CRunWriter(std::filesystem::path folder) : m_folder(std::move(folder)) {}
@@ -240,6 +257,8 @@ void CRunWriter::writeTables(const TRunRecord& r) const {
              [&](std::size_t i) { return cellsOf(r.candidates[i]); });
     writeCsv(m_folder / "innovations.csv", innovationColumns(), r.innovations.size(),
              [&](std::size_t i) { return cellsOf(r.innovations[i]); });
+    writeCsv(m_folder / "relocations.csv", relocationColumns(), r.relocations.size(),
+             [&](std::size_t i) { return cellsOf(r.relocations[i]); });
     writeSummary(r, (m_folder / "summary.json").string());
 }
 

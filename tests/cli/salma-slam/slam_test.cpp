@@ -121,8 +121,8 @@ TEST(SalmaSlam, RunsOnARealLaserLogWithCornersAlone) {
     EXPECT_NE(result.output.find("notice: no pictures in the log"), std::string::npos);
     for (const std::string file :
          {"trajectory.tum", "landmarks.csv", "associations.csv", "candidates.csv",
-          "innovations.csv", "summary.json", "landmarks.db", "map.png", "innovations.png",
-          "scene.3Dscene", "report.html"})
+          "innovations.csv", "relocations.csv", "summary.json", "landmarks.db", "map.png",
+          "innovations.png", "scene.3Dscene", "report.html"})
         EXPECT_TRUE(fs::file_size(folder / ("out/" + file)) > 0) << file;
     const auto summary = nlohmann::json::parse(readFile(folder / "out/summary.json"));
     EXPECT_EQ(summary.at("steps"), 225);

@@ -5,6 +5,7 @@
 #include <salma/viz/CRunWriter.h>
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -152,6 +153,40 @@ TEST(CRunWriter, NamesTheFileThatDoesNotFitOnTheDisk) {
     }
 }
 
+TEST(CRunWriter, WritesWhichLandmarksVotedForARelocation) {
+    TRunRecord record;
+    slam::TRelocationRow row;
+    row.time = 12.5;
+    row.outcome = "joined";
+    row.kind = association::ELandmarkKind::salient;
+    row.local = 31;
+    row.left = 4;
+    row.distance = 0.05;
+    row.logRatio = 2.5;
+    row.shiftX = -1;
+    row.shiftY = 3;
+    row.turn = M_PI / 6;
+    row.posters = 6;
+    row.corners = 7.5;
+    row.odometry = -3.5;
+    row.margin = 9;
+    record.relocations = {row};
+    row.outcome = "unproved";
+    row.kind = association::ELandmarkKind::corner;
+    row.logRatio = std::numeric_limits<double>::quiet_NaN();
+    row.margin = std::numeric_limits<double>::infinity();  // no other alignment
+    record.relocations.push_back(row);
+    record.joins = 1;
+    const test::CTemporaryFolder folder;
+    CRunWriter(folder.path()).writeTables(record);
+    EXPECT_EQ(test::readFile(folder / "relocations.csv"),
+              "t_s,outcome,kind,local_id,left_id,distance_m,log_lr,shift_x_m,shift_y_m,turn_deg,"
+              "posters,corners,odometry,margin\n"
+              "12.500000,joined,salient,31,4,0.05,2.5,-1,3,30,6,7.5,-3.5,9\n"
+              "12.500000,unproved,corner,31,4,0.05,,-1,3,30,6,7.5,-3.5,\n");
+    EXPECT_NE(test::readFile(folder / "summary.json").find("\"joins\": 1"), std::string::npos);
+}
+
 TEST(CRunWriter, RefusesAFolderThatDoesNotExist) {
     EXPECT_THROW(CRunWriter("/no/such/folder").writeTables({}), std::runtime_error);
 }
@@ -161,8 +196,8 @@ TEST(CRunWriter, LeavesEveryFileOfARunAlsoOfAnEmptyOne) {
     const test::CTemporaryFolder folder;
     CRunWriter(folder.path()).writeAll({empty, std::nullopt});
     for (const auto* name : {"trajectory.tum", "landmarks.csv", "associations.csv",
-                             "candidates.csv", "innovations.csv", "summary.json", "map.png",
-                             "innovations.png", "scene.3Dscene", "report.html"})
+                             "candidates.csv", "innovations.csv", "relocations.csv", "summary.json",
+                             "map.png", "innovations.png", "scene.3Dscene", "report.html"})
         EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
 }
 

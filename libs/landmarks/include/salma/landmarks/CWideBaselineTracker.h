@@ -66,6 +66,9 @@ class CWideBaselineTracker {
      * nothing and are not kept. */
     bool confirms(const TSighting& sighting);
 
+    /// The frame of the sightings turned out to lie elsewhere: moves all by (x, y, turn) [m, rad].
+    void move(const Eigen::Vector3d& motion);
+
     /// Entities that wait.
     std::size_t size() const { return m_entities.size(); }
 

@@ -73,6 +73,13 @@ class CLandmarkTable {
     /// The others forget that they looked like it.
     void erase(std::size_t index);
 
+    /// Landmark `gone` turns out to be `kept`, which takes over its views and sightings and keeps
+    /// its id; `gone` is erased.
+    void merge(std::size_t kept, std::size_t gone);
+
+    /// The world turned under a landmark by an angle [rad].
+    void turn(std::size_t index, double angle);
+
     /// Puts back what another table held. \param nextId Above all ids.
     void restore(std::vector<TLandmark> landmarks, int nextId);
     int nextId() const { return m_nextId; }

@@ -5,15 +5,25 @@
 #include <salma/association/CDataAssociator.h>
 #include <salma/landmarks/CWideBaselineTracker.h>
 #include <salma/slam/CLandmarkTable.h>
+#include <salma/slam/CPathHistory.h>
+#include <salma/slam/CPathSmoother.h>
+#include <salma/slam/CRelocator.h>
 #include <salma/slam/CSlamBackend.h>
 #include <salma/slam/CStepEvidence.h>
 #include <salma/slam/TEkfOptions.h>
 #include <salma/slam/blockFilter.h>
 
+#include <map>
 #include <memory>
 #include <optional>
 
 namespace salma::slam {
+
+/// What keeps a map sound beside the filter's steps.
+struct TMapCare {
+    TDetectionOptions detection;
+    TRelocationOptions relocation;
+};
 
 /** EKF-SLAM of posters and corners on the state of MRPT's range-bearing filter.
  *
@@ -28,7 +38,8 @@ class CSalientEKF2D : public mrpt::slam::CRangeBearingKFSLAM2D, public CSlamBack
     CSalientEKF2D(const TEkfOptions& ekf,
                   const association::TAssociationOptions& association,
                   PatchRatio ratio = nullptr,
-                  const landmarks::TTrackingOptions& tracking = atFirstSight());
+                  const landmarks::TTrackingOptions& tracking = atFirstSight(),
+                  const TMapCare& care = {});
     ~CSalientEKF2D() override;
 
     static landmarks::TTrackingOptions atFirstSight();
@@ -36,10 +47,13 @@ class CSalientEKF2D : public mrpt::slam::CRangeBearingKFSLAM2D, public CSlamBack
     void process(const TStepInput& step) override;
     mrpt::poses::CPosePDFGaussian pose() const override;
     void results(TRunRecord& record) const override;
+    void finish() override;
 
     const CLandmarkTable& landmarks() const { return m_landmarks; }
     /// Pairs that the tests of the association excluded, over all steps.
     const association::TDropCounts& dropped() const { return m_dropped; }
+    /// The last attempt to find the local map on the one that was left behind.
+    const TRelocation& lastRelocation() const { return m_lastRelocation; }
 
  protected:
     // Hooks of MRPT's step, for `update = mrpt` only.
@@ -65,6 +79,8 @@ class CSalientEKF2D : public mrpt::slam::CRangeBearingKFSLAM2D, public CSlamBack
         std::vector<EDecision> decisions;                      //!< By measurement.
         std::vector<int> landmarks;  //!< By measurement, index in the state; -1: none.
         std::vector<std::size_t> rowToObservation;  //!< Of MRPT's list of measurements.
+        bool closesLoop{false};                     //!< Landmarks not seen for long were paired.
+        std::vector<double> sigmas;  //!< By landmark, how vaguely it was predicted [m].
     };
 
     // A caller of MRPT's own entry point would go past the association and the record.
@@ -78,6 +94,16 @@ class CSalientEKF2D : public mrpt::slam::CRangeBearingKFSLAM2D, public CSlamBack
     landmarks::TSighting sightingOf(const association::TMeasurement& measurement) const;
     void enterLandmark(std::size_t observation, std::size_t index);
     void learn();
+    Eigen::Matrix3d poseCovariance() const;
+    void smooth();
+    void anchor();
+    void remember();
+    void noteUse();
+    void relocate();
+    bool isWorthAJoin(const TRelocation& found) const;
+    bool join(const TAlignment& alignment);
+    void noteRelocation(const std::string& outcome, const TRelocation& found);
+    void setState(const TSmoothed& smoothed);
     void noteAssociation(const association::TAssociationProblem& problem);
     void noteDecisions();
     void notePose();
@@ -92,6 +118,18 @@ class CSalientEKF2D : public mrpt::slam::CRangeBearingKFSLAM2D, public CSlamBack
     CLandmarkTable m_landmarks;
     landmarks::CWideBaselineTracker m_provisionalCorners, m_provisionalEntities;
     association::TDropCounts m_dropped;
+    TMapCare m_care;
+    /// Methods that never defer, and MRPT's step, which has one covariance for all measurements,
+    /// stay as they are.
+    bool m_relocates;
+    CPathHistory m_history;
+    std::map<int, double> m_lastUsed;  //!< By id, travel when a landmark was last used [m].
+    CRelocator m_relocator;
+    TRelocation m_lastRelocation;
+    double m_lastAttempt{0};          //!< Travel at it [m].
+    double m_lastSmoothing{0};        //!< Likewise [m].
+    Eigen::Vector3d m_base{0, 0, 0};  //!< Pose from which the covariance is stated.
+    Eigen::Matrix3d m_baseCovariance{Eigen::Matrix3d::Zero()};  //!< Of it, in the world.
     TCurrentStep m_now;
     TRunRecord m_record;  //!< Rows of all steps; landmarks only in results().
 };

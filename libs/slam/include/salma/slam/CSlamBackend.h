@@ -5,6 +5,7 @@
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 #include <mrpt/poses/CPosePDFGaussian.h>
 #include <salma/slam/TRunRecord.h>
+#include <salma/slam/TViews.h>
 
 #include <limits>
 #include <optional>
@@ -36,6 +37,9 @@ struct TStepInput {
     std::vector<association::TMeasurement> measurements;
     std::vector<TSpot> spots;             //!< One per measurement, or none at all.
     std::optional<TSpatialStep> spatial;  //!< Only for filters in space.
+    std::optional<TLaserView> laser;      //!< The last scan, if it is recent.
+    bool scanned{false};                  //!< It belongs to this step: corners were looked for.
+    std::optional<TCameraView> camera;    //!< Posters were looked for there.
 };
 
 /// A way to make a trajectory and a map of measurements.
@@ -45,6 +49,9 @@ class CSlamBackend {
 
     /// \throw std::invalid_argument if `step` is not finite or its vectors' sizes do not agree.
     virtual void process(const TStepInput& step) = 0;
+
+    /// After the last step: puts the map into its final form.
+    virtual void finish() {}
 
     /// T_w_r with covariance after the last step.
     virtual mrpt::poses::CPosePDFGaussian pose() const = 0;

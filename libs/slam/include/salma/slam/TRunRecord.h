@@ -67,6 +67,19 @@ struct TInnovationRow {
     double sigma{0};        //!< In the component's unit, from the innovation covariance.
 };
 
+/// A row of relocations.csv: a landmark that voted in an attempt to find the local map again.
+struct TRelocationRow {
+    double time{0};
+    std::string outcome;  //!< "joined", "ambiguous", "unproved" or "refused".
+    association::ELandmarkKind kind{association::ELandmarkKind::corner};
+    int local{0}, left{0};  //!< Ids in the local map and in the one that was left behind.
+    double distance{0};     //!< Between them after alignment [m].
+    double logRatio{0};     //!< Of their appearance; NaN for corners.
+    double shiftX{0}, shiftY{0}, turn{0};        //!< Of the robot by the alignment [m, rad].
+    double posters{0}, corners{0}, odometry{0};  //!< What each says for the alignment [nats].
+    double margin{0};                            //!< Lead over the second-best alignment [nats].
+};
+
 struct TMapLandmark {
     int id{0};
     association::ELandmarkKind kind{association::ELandmarkKind::corner};
@@ -91,6 +104,9 @@ struct TRunRecord {
     std::vector<TAssociationRow> associations;
     std::vector<TCandidateRow> candidates;
     std::vector<TInnovationRow> innovations;
+    std::vector<TRelocationRow> relocations;  //!< Of attempts that found something.
+    std::size_t joins{0};                     //!< Relocations that took effect.
+    std::size_t removed{0};                   //!< Landmarks that were looked for in vain.
     std::vector<mrpt::math::TPoint2D>
         scanPoints;  //!< Laser points at the estimated poses, thinned [m].
     std::vector<std::string> notices;

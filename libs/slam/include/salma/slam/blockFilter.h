@@ -38,4 +38,19 @@ void update(TFilterState state, const std::vector<TPairedMeasurement>& measureme
 /// Fills the last landmark of the state, which has been enlarged for it, from one measurement.
 void initializeLast(TFilterState state, const Eigen::Vector2d& z, const Eigen::Matrix2d& R);
 
+/** States the covariance from where the robot is: its pose becomes exact, and landmarks keep what
+ * is unsure between them and it. The mean stays as it is.
+ *
+ * A filter whose heading is unsure in the world by more than a degree or two takes derivatives at
+ * headings that differ, and so believes to have learned its heading; seen from the robot nothing is
+ * unsure that the derivatives depend on. To first order nothing is lost but the covariance of the
+ * pose, which the caller keeps. Source: Castellanos, Martinez-Cantin, Tardos and Neira, Robotics
+ * and Autonomous Systems 55(1), 2007 (robocentric mapping); as a change of datum: Baarda, 1973. */
+void anchorAtRobot(TFilterState state);
+
+/// Covariance of a pose by that of an earlier one, `base`, where both moved rigidly.
+Eigen::Matrix3d carried(const Eigen::Matrix3d& covariance,
+                        const Eigen::Vector3d& base,
+                        const Eigen::Vector3d& pose);
+
 }  // namespace salma::slam

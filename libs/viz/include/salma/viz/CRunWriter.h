@@ -37,6 +37,7 @@ std::vector<std::string> spatialLandmarkColumns();
 std::vector<std::string> associationColumns();
 std::vector<std::string> candidateColumns();
 std::vector<std::string> innovationColumns();
+std::vector<std::string> relocationColumns();
 
 /** Writes the files of a run folder.
  *
@@ -48,7 +49,7 @@ class CRunWriter {
     explicit CRunWriter(std::filesystem::path folder);
 
     /// trajectory.tum, landmarks.csv, associations.csv, candidates.csv, innovations.csv,
-    /// summary.json; of a filter in space also landmarks3d.csv.
+    /// relocations.csv, summary.json; of a filter in space also landmarks3d.csv.
     void writeTables(const slam::TRunRecord& record) const;
 
     /** The tables, map.png, innovations.png, scene.3Dscene and report.html.

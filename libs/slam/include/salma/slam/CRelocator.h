@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <salma/slam/CLandmarkTable.h>
+#include <salma/slam/CPathHistory.h>
+#include <salma/slam/TDetectionOptions.h>
+#include <salma/slam/TRelocationOptions.h>
+#include <salma/slam/blockFilter.h>
+
+#include <Eigen/Core>
+#include <array>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace salma::slam {
+
+/// What relocation looks at. All must outlive the call.
+struct TRelocationInput {
+    const CLandmarkTable& landmarks;
+    const Eigen::VectorXd& mean;  //!< Pose and landmarks [3 + 2N].
+    const RowMatrix& covariance;  //!< Of `mean`.
+    const CPathHistory& history;
+    const PatchRatio& ratio;  //!< May be null.
+    double maxRange{40};      //!< Of sensors without a stated view [m].
+    double halfField{M_PI};   //!< Likewise [rad].
+};
+
+/// A landmark of the local map and the one of the left map that it is.
+struct TSameLandmark {
+    std::size_t local{0}, left{0};  //!< Indices in the table.
+    double distance{0};             //!< Between them after alignment [m].
+    double logRatio{0};             //!< Of their appearance; NaN for corners.
+};
+
+/// A way to lay the local map onto the map that was left behind.
+struct TAlignment {
+    Eigen::Vector3d T{0, 0, 0};  //!< World as the filter has it to the left map (x, y, turn).
+    std::vector<TSameLandmark> pairs;
+    double posters{0};    //!< What posters say, seen and missed [nats].
+    double corners{0};    //!< What corners say [nats].
+    double odometry{0};   //!< What the path says [nats].
+    double distance2{0};  //!< Of all pairs together, with T free: 2 n - 3 degrees of freedom.
+
+    double score(double geometryCap) const;
+    /// Against other alignments: corners count in full.
+    double total() const { return posters + corners + odometry; }
+    std::size_t matchedPosters() const;
+};
+
+enum class ERelocation {
+    nothing,    //!< No local map, no other map, or no alignment at all.
+    unproved,   //!< The best alignment explains the local map no better than a new place.
+    ambiguous,  //!< Another alignment is nearly as good.
+    found
+};
+
+struct TRelocation {
+    ERelocation outcome{ERelocation::nothing};
+    TAlignment best;
+    double margin{0};  //!< Lead over the second-best alignment; infinite without one [nats].
+    std::size_t alignments{0};  //!< That were looked at.
+};
+
+/// Log ratios by the ids of two landmarks and the numbers of their sightings, which may add views.
+using TRatioCache = std::map<std::array<int, 4>, double>;
+
+/** Finds where the local map lies on the map that was left behind.
+ *
+ * Local are landmarks first seen during the last `localTravel` metres; left behind those last seen
+ * before these by `gap` at least. Alignments are proposed by each pair of posters that look alike
+ * (place and wall give the whole pose) and, near to where odometry believes to be, by pairs of
+ * corners. Each is judged on the whole local map:
+ *  - posters: log LR of those that fall together; for those that do not, the probability that the
+ *    other pass, which looked there, overlooked it;
+ *  - corners likewise, without appearance; buildings repeat, so against "a new place" they
+ *    count `geometryCap` at most, but in full between alignments;
+ *  - odometry: log density of the shift that it would have to have made, its covariance widened by
+ *    `driftFactor`, mixed with being lost altogether.
+ * Found is an alignment that reaches `accept`, leads by `margin`, and whose pairs are jointly
+ * compatible under the covariance of both maps. Source: Neira, Tardos and Castellanos, ICRA 2003
+ * (geometric constraints); scores own. */
+class CRelocator {
+ public:
+    /// \throw std::invalid_argument if options are out of range.
+    explicit CRelocator(const TRelocationOptions& options = {},
+                        const TDetectionOptions& detection = {});
+
+    TRelocation find(const TRelocationInput& input);
+
+ private:
+    TRelocationOptions m_options;
+    TDetectionOptions m_detection;
+    TRatioCache m_ratios;
+};
+
+}  // namespace salma::slam

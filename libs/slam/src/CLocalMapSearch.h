@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <salma/slam/CRelocator.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace salma::slam {
+
+/// One attempt of CRelocator.
+class CLocalMapSearch {
+ public:
+    CLocalMapSearch(const TRelocationOptions& options,
+                    const TDetectionOptions& detection,
+                    const TRelocationInput& input,
+                    TRatioCache& ratios);
+
+    TRelocation run();
+
+ private:
+    /// A landmark of either map.
+    struct TMark {
+        std::size_t index{0};  //!< In the table.
+        Eigen::Vector2d place{0, 0};
+        std::size_t firstStep{0}, lastStep{0};
+    };
+    using TMarks = std::vector<TMark>;
+
+    void split();
+    bool salient(const TMark& mark) const;
+    bool mayBeOne(const TMark& local, const TMark& left, double turn) const;
+    double ratio(const TMark& local, const TMark& left);
+    double ratioAmongLookAlikes(const TMark& local, const TMark& left);
+
+    std::vector<Eigen::Vector3d> proposals();
+    bool inReach(const TMark& local, const TMark& left) const;
+
+    TAlignment aligned(Eigen::Vector3d T);
+    std::vector<TSameLandmark> matched(const Eigen::Vector3d& T, double radius);
+    /// Covariance of (local after the turn - left) of all pairs [2n x 2n].
+    Eigen::MatrixXd covarianceOf(const std::vector<TSameLandmark>& pairs, double turn) const;
+    bool dropIncompatible(TAlignment& alignment) const;
+
+    void weighPosters(TAlignment& alignment);
+    void weighCorners(TAlignment& alignment) const;
+    void weighOdometry(TAlignment& alignment) const;
+    double missed(const TMark& mark,
+                  const Eigen::Vector3d& T,
+                  std::size_t fromStep,
+                  std::size_t toStep) const;
+    bool cornerWasLookedAt(const Eigen::Vector2d& place,
+                           std::size_t fromStep,
+                           std::size_t toStep) const;
+    bool sameAlignment(const TAlignment& a, const TAlignment& b) const;
+
+    const TRelocationOptions& m_options;
+    const TDetectionOptions& m_detection;
+    const TRelocationInput& m_input;
+    TRatioCache& m_ratios;
+    TMarks m_local, m_left;
+    std::size_t m_localStart{0};         //!< First step that used a landmark of the local map.
+    std::vector<std::size_t> m_glances;  //!< Scans, thinned by travel.
+};
+
+}  // namespace salma::slam

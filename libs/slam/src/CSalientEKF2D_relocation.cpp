@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The local map, and how it is joined with the map that was left behind.
+#include <mrpt/math/wrap2pi.h>
+#include <salma/slam/CPathSmoother.h>
+#include <salma/slam/CSalientEKF2D.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "planeMotion.h"
+
+namespace salma::slam {
+
+using association::ELandmarkKind;
+
+namespace {
+
+/// Mean squared normalised residual up to which a landmark that was joined is believed.
+constexpr double largestMisfit = 4;
+constexpr double refusedTravel = 3;  // to the next attempt after a join that failed [m]
+constexpr double vagueSigma = 0.1;  // of a prediction: its derivatives were not exact [m]
+
+}  // namespace
+
+/// Keeps what this step brought, so that path and map can be estimated anew.
+void CSalientEKF2D::remember() {
+    TPastStep step;
+    const TStepInput& input = m_now.input;
+    step.time = input.time;
+    step.increment << input.increment.mean.x(), input.increment.mean.y(),
+        input.increment.mean.phi();
+    step.Q = input.increment.cov.asEigen();
+    step.pose = poseMean();
+    step.laser = input.laser;
+    step.scanned = input.scanned;
+    step.camera = input.camera;
+    for (std::size_t i = 0; i < input.measurements.size(); ++i) {
+        const EDecision decision = m_now.decisions[i];
+        if (decision != EDecision::paired && decision != EDecision::created) continue;
+        const auto index = static_cast<std::size_t>(m_now.landmarks[i]);
+        step.used.push_back(
+            {m_landmarks[index].id, input.measurements[i].z, input.measurements[i].R});
+    }
+    m_history.add(std::move(step));
+    noteUse();
+}
+
+/* The filter takes a long step with derivatives from before it where landmarks are paired that
+ * were not seen for long and were predicted vaguely. */
+void CSalientEKF2D::noteUse() {
+    const double now = m_history.back().travel;
+    for (std::size_t i = 0; i < m_now.decisions.size(); ++i) {
+        const EDecision decision = m_now.decisions[i];
+        if (decision != EDecision::paired && decision != EDecision::created) continue;
+        const auto index = static_cast<std::size_t>(m_now.landmarks[i]);
+        const auto [last, isNew] = m_lastUsed.insert({m_landmarks[index].id, now});
+        if (!isNew && last->second < now - m_care.relocation.gap &&
+            m_now.sigmas[index] > vagueSigma)
+            m_now.closesLoop = true;
+        last->second = now;
+    }
+}
+
+void CSalientEKF2D::relocate() {
+    const double travel = m_history.back().travel;
+    const bool showsLandmark = std::any_of(m_now.landmarks.begin(), m_now.landmarks.end(),
+                                           [](int index) { return index >= 0; });
+    if (!showsLandmark || travel < m_lastAttempt + m_care.relocation.every) return;
+    m_lastAttempt = travel;
+    const TFilterState now = state();
+    const Eigen::VectorXd mean = now.mean;
+    const RowMatrix covariance = now.covariance;
+    m_lastRelocation = m_relocator.find(
+        {m_landmarks, mean, covariance, m_history, m_ratio, m_ekf.maxRange, m_ekf.fieldOfView / 2});
+    switch (m_lastRelocation.outcome) {
+        case ERelocation::nothing:
+            return;
+        case ERelocation::unproved:
+            return noteRelocation("unproved", m_lastRelocation);
+        case ERelocation::ambiguous:
+            return noteRelocation("ambiguous", m_lastRelocation);
+        case ERelocation::found:
+            break;
+    }
+    if (!isWorthAJoin(m_lastRelocation)) return;
+    const std::size_t firstRow = m_record.relocations.size();
+    noteRelocation("joined", m_lastRelocation);  // by the ids before the join
+    if (join(m_lastRelocation.best)) return;
+    for (std::size_t k = firstRow; k < m_record.relocations.size(); ++k)
+        m_record.relocations[k].outcome = "refused";
+    m_lastAttempt += refusedTravel;  // half a metre later it would be the same
+}
+
+/// A join is for what the filter cannot pair by itself, and takes more than a chance meeting.
+bool CSalientEKF2D::isWorthAJoin(const TRelocation& found) const {
+    const auto& pairs = found.best.pairs;
+    const bool isOutOfReach = std::any_of(pairs.begin(), pairs.end(), [this](const auto& pair) {
+        return pair.left < m_now.sigmas.size() &&
+               m_now.sigmas[pair.left] > m_care.relocation.unsure;
+    });
+    const std::size_t posters = found.best.matchedPosters();
+    return isOutOfReach ? pairs.size() >= 4 || posters >= 2 : pairs.size() >= 4 && posters >= 2;
+}
+
+/* Both maps' landmarks become one, and path and map are estimated anew from all that was measured.
+ * The iteration starts from a path bent so that the ends meet: where the left map ends nothing
+ * moves, the local map moves as the alignment says, and in between the motion is shared out. */
+bool CSalientEKF2D::join(const TAlignment& alignment) {
+    CPathHistory history = m_history;
+    CLandmarkTable landmarks = m_landmarks;
+    std::size_t leftEnd = 0, localStart = history.size();
+    std::vector<std::pair<int, int>> ids;  // gone, kept
+    for (const TSameLandmark& pair : alignment.pairs) {
+        const int gone = m_landmarks[pair.local].id, kept = m_landmarks[pair.left].id;
+        localStart = std::min(localStart, history.stepsOf(gone)->first);
+        leftEnd = std::max(leftEnd, history.stepsOf(kept)->second);
+        ids.emplace_back(gone, kept);
+    }
+    const auto indexOf = [&landmarks](int id) {
+        std::size_t index = 0;
+        while (landmarks[index].id != id) ++index;
+        return index;
+    };
+    std::vector<Eigen::Vector2d> places;
+    for (std::size_t i = 0; i < m_landmarks.size(); ++i)
+        places.emplace_back(m_xkk[3 + 2 * i], m_xkk[4 + 2 * i]);
+    const double from = history[leftEnd].travel, to = history[localStart].travel;
+    std::vector<double> shares;
+    for (std::size_t k = 0; k < history.size(); ++k)
+        shares.push_back(to > from ? std::clamp((history[k].travel - from) / (to - from), 0.0, 1.0)
+                                   : (k >= localStart ? 1.0 : 0.0));
+    for (std::size_t i = 0; i < m_landmarks.size(); ++i)
+        places[i] = applied(shareOf(alignment.T, shares[history.stepsOf(m_landmarks[i].id)->first]),
+                            places[i]);
+    for (std::size_t k = 0; k < history.size(); ++k)
+        history.setPose(k, appliedToPose(shareOf(alignment.T, shares[k]), history[k].pose));
+    for (const auto& [gone, kept] : ids) {
+        const std::size_t index = indexOf(gone);
+        history.rename(gone, kept);
+        places.erase(places.begin() + static_cast<std::ptrdiff_t>(index));
+        landmarks.merge(indexOf(kept), index);
+    }
+    std::vector<int> order;
+    for (std::size_t i = 0; i < landmarks.size(); ++i) order.push_back(landmarks[i].id);
+    const TSmoothed smoothed = CPathSmoother().smooth(history, order, places);
+    for (const auto& [gone, kept] : ids)
+        if (!(smoothed.misfit[indexOf(kept)] <= largestMisfit)) return false;
+    for (std::size_t i = 0; i < m_now.landmarks.size(); ++i) {
+        if (m_now.landmarks[i] < 0) continue;
+        int id = m_landmarks[static_cast<std::size_t>(m_now.landmarks[i])].id;
+        for (const auto& [gone, kept] : ids)
+            if (gone == id) {
+                id = kept;
+                m_now.decisions[i] = EDecision::relocated;
+            }
+        m_now.landmarks[i] = static_cast<int>(indexOf(id));
+    }
+    for (const auto& [gone, kept] : ids) {
+        m_history.rename(gone, kept);
+        m_lastUsed[kept] = std::max(m_lastUsed[kept], m_lastUsed[gone]);
+        m_lastUsed.erase(gone);
+    }
+    m_landmarks = std::move(landmarks);
+    setState(smoothed);
+    ++m_record.joins;
+    return true;
+}
+
+/// The history's poses are those of before.
+void CSalientEKF2D::setState(const TSmoothed& smoothed) {
+    for (std::size_t i = 0; i < m_landmarks.size(); ++i) {
+        const std::size_t last = m_history.stepsOf(m_landmarks[i].id)->second;
+        m_landmarks.turn(i, smoothed.poses[last][2] - m_history[last].pose[2]);
+    }
+    const Eigen::Vector3d motion =
+        appliedToPose(smoothed.poses.back(), inverseOf(m_history.back().pose));
+    m_provisionalCorners.move(motion);
+    m_provisionalEntities.move(motion);
+    for (std::size_t k = 0; k < m_history.size(); ++k) m_history.setPose(k, smoothed.poses[k]);
+    const Eigen::Index size = smoothed.mean.size();
+    m_xkk.resize(size);
+    m_pkk.setSize(size, size);
+    TFilterState now = state();
+    now.mean = smoothed.mean;
+    now.covariance = smoothed.covariance;
+    m_IDs.clear();
+    for (std::size_t i = 0; i < m_landmarks.size(); ++i)
+        m_IDs.insert(m_landmarks[i].id, static_cast<unsigned>(i));
+    m_base.setZero();
+    m_baseCovariance.setZero();
+    m_lastSmoothing = m_history.back().travel;
+}
+
+/// Path and map anew, with all derivatives taken at the result.
+void CSalientEKF2D::smooth() {
+    std::vector<int> order;
+    std::vector<Eigen::Vector2d> places;
+    for (std::size_t i = 0; i < m_landmarks.size(); ++i) {
+        order.push_back(m_landmarks[i].id);
+        places.emplace_back(m_xkk[3 + 2 * i], m_xkk[4 + 2 * i]);
+    }
+    setState(CPathSmoother().smooth(m_history, order, places));
+}
+
+Eigen::Matrix3d CSalientEKF2D::poseCovariance() const {
+    return m_pkk.asEigen().topLeftCorner<3, 3>() + carried(m_baseCovariance, m_base, poseMean());
+}
+
+void CSalientEKF2D::anchor() {
+    if (std::sqrt(m_pkk(2, 2)) <= m_care.relocation.anchorSigma) return;
+    m_baseCovariance = poseCovariance();
+    m_base = poseMean();
+    anchorAtRobot(state());
+}
+
+/// The covariance is stated in the world again.
+void CSalientEKF2D::finish() {
+    if (m_relocates && !m_history.empty() && !m_baseCovariance.isZero(0)) smooth();
+}
+
+void CSalientEKF2D::noteRelocation(const std::string& outcome, const TRelocation& found) {
+    const TAlignment& best = found.best;
+    const Eigen::Vector3d moved = appliedToPose(best.T, poseMean());
+    for (const TSameLandmark& pair : best.pairs) {
+        TRelocationRow row;
+        row.time = m_now.input.time;
+        row.outcome = outcome;
+        row.kind = m_landmarks[pair.local].kind;
+        row.local = m_landmarks[pair.local].id;
+        row.left = m_landmarks[pair.left].id;
+        row.distance = pair.distance;
+        row.logRatio = pair.logRatio;
+        row.shiftX = moved[0] - m_xkk[0];
+        row.shiftY = moved[1] - m_xkk[1];
+        row.turn = mrpt::math::wrapToPi(best.T[2]);
+        row.posters = best.posters;
+        row.corners = best.corners;
+        row.odometry = best.odometry;
+        row.margin = found.margin;
+        m_record.relocations.push_back(row);
+    }
+}
+
+}  // namespace salma::slam
