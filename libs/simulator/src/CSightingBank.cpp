@@ -7,6 +7,7 @@
 #include <salma/simulator/CSightingBank.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -59,6 +60,18 @@ TBankedView unpacked(const Bytes& bytes) {
         view.sightings.push_back(std::move(s));
     }
     return view;
+}
+
+/// A key as it counts: what an ini file says of a value, in its comments, may change.
+std::string withoutComments(const std::string& key) {
+    std::istringstream lines(key);
+    std::string line, result;
+    while (std::getline(lines, line)) {
+        line.erase(std::min(line.find(" //"), line.size()));
+        line.erase(line.find_last_not_of(' ') + 1);
+        result += line + '\n';
+    }
+    return result;
 }
 
 /// The first line of `text` that `other` has not at the same place.
@@ -134,8 +147,9 @@ TBankedView CSightingBank::view(std::size_t draw, std::size_t picture) const {
 }
 
 void CSightingBank::requireKey(const std::string& key) const {
-    if (key == m_key) return;
-    const std::string own = firstDifference(m_key, key), wanted = firstDifference(key, m_key);
+    const std::string a = withoutComments(m_key), b = withoutComments(key);
+    if (a == b) return;
+    const std::string own = firstDifference(a, b), wanted = firstDifference(b, a);
     throw std::invalid_argument(m_file.string() + ": is a bank of something else: it has '" + own +
                                 "' where this run has '" + wanted +
                                 "'; delete it, or name another file");

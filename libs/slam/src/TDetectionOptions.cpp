@@ -36,9 +36,9 @@ void TDetectionOptions::visit(config::COptionVisitor& v) {
     v.numbers("incidence_knots_deg", incidence, config::between(0, 90),
               "ascending angles between the ray to a poster and the wall's normal, each");
     v.numbers("by_incidence", byIncidence, config::between(0, 1),
-              "probability at each that a poster in view is found, learned, each");
+              "probability at each that a poster in view is found");
     v.numbers("range_knots_m", range, config::atLeast(0), "ascending distances, each");
-    v.numbers("by_range", byRange, config::between(0, 1), "factor at each, learned, each");
+    v.numbers("by_range", byRange, config::between(0, 1), "factor at each");
 }
 
 void TDetectionOptions::validate() const {

@@ -88,6 +88,7 @@ TEST(CSightingBank, ABankOfSomethingElseIsRefusedByName) {
     const CTemporaryFolder folder;
     const CSightingBank bank(writeEmptyViews(folder));
     EXPECT_NO_THROW(bank.requireKey("a = 1\nb = 2\n"));
+    EXPECT_NO_THROW(bank.requireKey("a = 1  // other words, of other keys too\nb = 2\n"));
     try {
         bank.requireKey("a = 1\nb = 3\n");
         FAIL() << "accepted";

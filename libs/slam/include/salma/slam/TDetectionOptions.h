@@ -9,8 +9,8 @@ namespace salma::slam {
 
 /** Section [detection] of config.ini: how often the front end finds a poster that it looks at.
  *
- * The probability is the product of two tables, interpolated, constant beyond their ends. Learned
- * by `salma-landmarks calibrate` (detection.csv). */
+ * The probability is the product of two tables, interpolated, constant beyond their ends. They are
+ * set by hand; `salma-landmarks calibrate` measures the same in detection.csv. */
 struct TDetectionOptions : public config::TStrictOptions<TDetectionOptions> {
     std::vector<double> incidence{0, 15, 30, 45, 60, 75, 90};  //!< Ascending [deg].
     std::vector<double> byIncidence{0.6, 0.6, 0.55, 0.5, 0.4, 0.2, 0.02};
