@@ -105,7 +105,9 @@ TEST(CEntityDetector, TakesTheRegionsOfAnotherProgramAsDiscsOfTheirArea) {
     TDetectionOptions options;
     options.selection.detector = EDetector::external;
     EXPECT_THROW(CEntityDetector{options}, std::invalid_argument) << "no command";
-    options.external.command = "cp " + regions + " {regions} --no-clobber --suffix {image}";
+    const auto program =
+        folder.write("detector.sh", "test -s \"$1\" && cp " + regions + " \"$2\"\n");
+    options.external.command = "sh " + program + " {image} {regions}";
     const auto found = CEntityDetector(options).detect(picture());
     ASSERT_EQ(found.regions.size(), 1u);
     EXPECT_EQ(found.regions[0].x, 40);
