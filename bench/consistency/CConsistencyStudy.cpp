@@ -21,6 +21,13 @@ struct TEstimate {
     Eigen::Matrix3d covariance;
 };
 
+/// The path is not estimated anew where a loop closes: this is about the filter.
+slam::TMapCare filterAlone() {
+    slam::TMapCare care;
+    care.relocation.use = false;
+    return care;
+}
+
 TEstimate estimateOf(const slam::CSalientEKF2D& filter) {
     const auto pose = filter.pose();
     return {{pose.mean.x(), pose.mean.y(), pose.mean.phi()}, pose.cov.asEigen()};
@@ -74,7 +81,8 @@ TLevelResult study(const CLoopWorld& world,
     result.filters[1].filter = "first-estimates Jacobians";
     for (std::size_t run = 0; run < runs; ++run) {
         const TDrive drive = world.drive(level, seed + static_cast<std::uint32_t>(run));
-        slam::CSalientEKF2D ekf({}, {});
+        slam::CSalientEKF2D ekf({}, {}, nullptr, slam::CSalientEKF2D::atFirstSight(),
+                                filterAlone());
         CFirstEstimatesFilter firstEstimates;
         addRun(ekf, drive, result.filters[0]);
         addRun(firstEstimates, drive, result.filters[1]);
