@@ -31,7 +31,7 @@ struct TGrabOptions : public config::TStrictOptions<TGrabOptions> {
     EOnFailure onFailure{EOnFailure::carryOn};
     double restartTime{2};        //!< Between attempts to start a failed sensor [s].
     double holdTime{0.15};        //!< A record waits so long for older ones of other sensors [s].
-    double memberTime{0.25};       //!< A gzip member is completed after so long [s].
+    double memberTime{0.25};      //!< A gzip member is completed after so long [s].
     double silentTime{5};         //!< A sensor without a record for so long is told [s].
     double stopTime{5};           //!< Sensors may take so long to end [s].
     bool externalPictures{true};  //!< Pictures as files in X_Images, as rawlog-grabber keeps them.

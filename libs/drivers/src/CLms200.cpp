@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <mrpt/core/Clock.h>
+#include <salma/config/withoutBrackets.h>
 #include <salma/drivers/CLms200.h>
 #include <salma/drivers/CSerialLine.h>
 
@@ -7,7 +8,6 @@
 #include <stdexcept>
 
 #include "CSickPort.h"
-#include "grabberText.h"
 #include "steadyNow.h"
 
 IMPLEMENTS_GENERIC_SENSOR(CLms200, salma::drivers)
@@ -36,7 +36,7 @@ void CLms200::loadConfig_sensorSpecific(const mrpt::config::CConfigFileBase& fil
     try {
         options.loadFromConfigFile(file, section);
     } catch (const std::invalid_argument& error) {
-        throw std::invalid_argument(withoutBrackets(error.what()));
+        throw std::invalid_argument(config::withoutBrackets(error.what()));
     }
     setOptions(options);
 }

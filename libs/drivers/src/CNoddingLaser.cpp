@@ -2,6 +2,7 @@
 #include <mrpt/core/Clock.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservationPointCloud.h>
+#include <salma/config/withoutBrackets.h>
 #include <salma/drivers/CNoddingLaser.h>
 
 #include <chrono>
@@ -9,7 +10,6 @@
 #include <stdexcept>
 
 #include "CSentenceLine.h"
-#include "grabberText.h"
 #include "steadyNow.h"
 
 IMPLEMENTS_GENERIC_SENSOR(CNoddingLaser, salma::drivers)
@@ -40,7 +40,7 @@ void CNoddingLaser::loadConfig_sensorSpecific(const mrpt::config::CConfigFileBas
     try {
         m_options.loadFromConfigFile(file, section);
     } catch (const std::invalid_argument& error) {
-        throw std::invalid_argument(withoutBrackets(error.what()));
+        throw std::invalid_argument(config::withoutBrackets(error.what()));
     }
     TLms200Options laser = m_options.laser;
     laser.driver = TLms200Options().driver;

@@ -7,8 +7,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "grabberText.h"
-
 IMPLEMENTS_GENERIC_SENSOR(CPanTiltCameraSensor, salma::drivers)
 
 namespace salma::drivers {

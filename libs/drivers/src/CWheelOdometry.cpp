@@ -2,12 +2,12 @@
 #include <mrpt/core/Clock.h>
 #include <mrpt/core/bits_math.h>
 #include <mrpt/obs/CObservationOdometry.h>
+#include <salma/config/withoutBrackets.h>
 #include <salma/drivers/CWheelOdometry.h>
 
 #include <stdexcept>
 
 #include "CSentenceLine.h"
-#include "grabberText.h"
 #include "steadyNow.h"
 
 IMPLEMENTS_GENERIC_SENSOR(CWheelOdometry, salma::drivers)
@@ -15,13 +15,7 @@ IMPLEMENTS_GENERIC_SENSOR(CWheelOdometry, salma::drivers)
 namespace salma::drivers {
 
 void TWheelOdometryOptions::visit(config::COptionVisitor& v) {
-    v.text("driver", driver, "read by rawlog-grabber");
-    v.text("sensorLabel", sensorLabel, "name in the records");
-    v.number("process_rate", processRate, config::moreThan(0), "looks a second");
-    v.integer("max_queue_len", maxQueue, config::atLeast(1),
-              "records that may wait for the grabber");
-    v.integer("grab_decimation", decimation, config::atLeast(0), "keep one record of so many");
-    v.text("rawlog-grabber-ignore", ignore, "true: not used");
+    visitGrabberKeys(v, "looks a second");
     v.text("port", port, "serial port, absolute or below /dev");
     v.integer("baud", baud, config::between(300, 500000), "rate of the serial port");
     v.number("latency_s", latency, config::between(0, 1),
@@ -53,7 +47,7 @@ void CWheelOdometry::loadConfig_sensorSpecific(const mrpt::config::CConfigFileBa
     try {
         m_options.loadFromConfigFile(file, section);
     } catch (const std::invalid_argument& error) {
-        throw std::invalid_argument(withoutBrackets(error.what()));
+        throw std::invalid_argument(config::withoutBrackets(error.what()));
     }
 }
 

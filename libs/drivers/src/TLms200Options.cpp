@@ -16,14 +16,7 @@ void TLms200Options::visit(config::COptionVisitor& v) {
     using config::anyNumber;
     using config::between;
     const auto turn = between(-180, 180);
-    v.text("driver", driver, "read by rawlog-grabber");
-    v.text("sensorLabel", sensorLabel, "name in the records");
-    v.number("process_rate", processRate, config::moreThan(0),
-             "looks for scans a second; a stamp is late by the time between two");
-    v.integer("max_queue_len", maxQueue, config::atLeast(1),
-              "records that may wait for the grabber");
-    v.integer("grab_decimation", decimation, config::atLeast(0), "keep one record of so many");
-    v.text("rawlog-grabber-ignore", ignore, "true: not used");
+    visitGrabberKeys(v, "looks for scans a second; a stamp is late by the time between two");
     v.text("COM_port_LIN", port, "serial port, absolute or below /dev");
     v.choice("COM_baudRate", baud, {{"9600", 9600}, {"38400", 38400}, {"500000", 500000}},
              "rate of the serial port; 500000 needs RS-422");

@@ -25,13 +25,7 @@ void visitMount(config::COptionVisitor& v,
 }  // namespace
 
 void TPanTiltCameraOptions::visit(config::COptionVisitor& v) {
-    v.text("driver", driver, "read by rawlog-grabber");
-    v.text("sensorLabel", sensorLabel, "name in the records");
-    v.number("process_rate", processRate, config::moreThan(0), "records a second");
-    v.integer("max_queue_len", maxQueue, config::atLeast(1),
-              "records that may wait for the grabber");
-    v.integer("grab_decimation", decimation, config::atLeast(0), "keep one record of so many");
-    v.text("rawlog-grabber-ignore", ignore, "true: not used");
+    visitGrabberKeys(v, "records a second");
     v.text("port", port, "serial port, absolute or below /dev");
     camera.visit(v);
     v.integer("zoom_every", zoomEvery, config::atLeast(1),

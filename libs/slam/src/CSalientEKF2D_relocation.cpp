@@ -19,7 +19,7 @@ namespace {
 /// Mean squared normalised residual up to which a landmark that was joined is believed.
 constexpr double largestMisfit = 4;
 constexpr double refusedTravel = 3;  // to the next attempt after a join that failed [m]
-constexpr double vagueSigma = 0.1;  // of a prediction: its derivatives were not exact [m]
+constexpr double vagueSigma = 0.1;   // of a prediction: its derivatives were not exact [m]
 
 }  // namespace
 

@@ -111,8 +111,4 @@ void CEmulatedRobot::forgive(const std::string& section) {
     m_names.erase(std::remove(m_names.begin(), m_names.end(), section), m_names.end());
 }
 
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
-
 }  // namespace salma::test

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <messages.h>
 
 #include <map>
 #include <string>
@@ -57,7 +58,5 @@ class CEmulatedRobot {
 };
 
 class CRobotTest : public testing::Test, public CEmulatedRobot {};
-
-bool contains(const std::string& text, const std::string& part);
 
 }  // namespace salma::test

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // salma-snap as a process; below libv4l2 lies an emulated capture card (tests/emulators/video).
 #include <gtest/gtest.h>
+#include <messages.h>
 
 #include <algorithm>
 #include <csignal>
@@ -17,6 +18,8 @@ namespace fs = std::filesystem;
 
 namespace salma {
 namespace {
+
+using salma::test::contains;
 
 class SalmaSnap : public testing::Test {
  protected:
@@ -49,10 +52,6 @@ class SalmaSnap : public testing::Test {
 
     test::CTemporaryFolder m_folder;
 };
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
 
 void expectError(const test::TProcessResult& result, const std::string& part) {
     EXPECT_EQ(result.exitCode, 1) << result.output;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // evid30-emulator LINK: a camera to try programs on, at the serial port LINK, until Ctrl-C.
-#include <csignal>
 #include <iostream>
 
+#include "CEndingSignals.h"
 #include "CEviD30.h"
 
 int main(int argc, char** argv) {
@@ -10,17 +10,12 @@ int main(int argc, char** argv) {
         std::cerr << "usage: evid30-emulator LINK, e.g. evid30-emulator /tmp/camera\n";
         return 2;
     }
-    sigset_t ending;
-    sigemptyset(&ending);
-    sigaddset(&ending, SIGINT);
-    sigaddset(&ending, SIGTERM);
-    pthread_sigmask(SIG_BLOCK, &ending, nullptr);  // before the emulator's thread, which inherits
+    const salma::test::CEndingSignals ending;
     try {
         salma::test::CEviD30 camera;
         const salma::test::CEmulator emulator(camera, argv[1]);
         std::cout << "an EVI-D30 listens at " << argv[1] << " until Ctrl-C" << std::endl;
-        int signal = 0;
-        sigwait(&ending, &signal);
+        ending.wait();
     } catch (const std::exception& error) {
         std::cerr << "evid30-emulator: " << error.what() << "\n";
         return 1;

@@ -2,10 +2,10 @@
 // lms200-emulator LINK [WORLD.ini]: a laser to try programs on, at the serial port LINK, until
 // Ctrl-C. It stands in a room, or drives through a world of salma-sim, again and again.
 #include <cmath>
-#include <csignal>
 #include <iostream>
 #include <memory>
 
+#include "CEndingSignals.h"
 #include "CWorldScanner.h"
 
 using namespace salma;
@@ -40,17 +40,12 @@ int main(int argc, char** argv) {
         std::cerr << "usage: lms200-emulator LINK [WORLD.ini], e.g. lms200-emulator /tmp/laser\n";
         return 2;
     }
-    sigset_t ending;
-    sigemptyset(&ending);
-    sigaddset(&ending, SIGINT);
-    sigaddset(&ending, SIGTERM);
-    pthread_sigmask(SIG_BLOCK, &ending, nullptr);  // before the emulator's thread, which inherits
+    const test::CEndingSignals ending;
     try {
         test::CSickLms200 laser(scannerFor(argc, argv));
         const test::CEmulator emulator(laser, argv[1]);
         std::cout << "a LMS 200 listens at " << argv[1] << " until Ctrl-C" << std::endl;
-        int signal = 0;
-        sigwait(&ending, &signal);
+        ending.wait();
     } catch (const std::exception& error) {
         std::cerr << "lms200-emulator: " << error.what() << "\n";
         return 1;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <messages.h>
 #include <mrpt/config/CConfigFileMemory.h>
 #include <mrpt/core/Clock.h>
 #include <mrpt/obs/CObservationImage.h>
@@ -20,6 +21,9 @@ using mrpt::RAD2DEG;
 using observations::CObservationPanTilt;
 
 namespace {
+
+using salma::test::contains;
+using salma::test::messageOf;
 
 class PanTiltSensor : public test::CameraOnAPort {
  protected:
@@ -53,20 +57,6 @@ class PanTiltSensor : public test::CameraOnAPort {
 
     CPanTiltCameraSensor m_sensor;
 };
-
-template <class CALL>
-std::string messageOf(CALL call) {
-    try {
-        call();
-    } catch (const std::exception& error) {
-        return error.what();
-    }
-    return "";
-}
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
 
 }  // namespace
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
+#include <messages.h>
 #include <salma/drivers/CSerialLine.h>
 
 #include "CPseudoTerminal.h"
@@ -11,6 +12,8 @@ using drivers::CSerialLine;
 using test::TBytes;
 
 namespace {
+
+using salma::test::contains;
 
 class SerialLine : public testing::Test {
  protected:
@@ -27,10 +30,6 @@ class SerialLine : public testing::Test {
 
     test::CTemporaryFolder m_folder;
 };
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
 
 }  // namespace
 

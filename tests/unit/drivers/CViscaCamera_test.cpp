@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <messages.h>
 #include <mrpt/core/bits_math.h>
 
 #include <cmath>
@@ -15,17 +16,9 @@ using mrpt::RAD2DEG;
 
 namespace {
 
-using ViscaCamera = test::CameraOnAPort;
+using salma::test::messageOf;
 
-template <class CALL>
-std::string messageOf(CALL call) {
-    try {
-        call();
-    } catch (const std::invalid_argument& error) {
-        return error.what();
-    }
-    return "";
-}
+using ViscaCamera = test::CameraOnAPort;
 
 }  // namespace
 

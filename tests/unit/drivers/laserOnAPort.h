@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <messages.h>
 #include <mrpt/config/CConfigFileMemory.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <salma/drivers/CLms200.h>
@@ -78,18 +79,4 @@ class LaserOnAPort : public testing::Test {
 };
 
 /// What a call says when it throws; "" if it does not.
-template <class CALL>
-std::string messageOf(CALL call) {
-    try {
-        call();
-    } catch (const std::exception& error) {
-        return error.what();
-    }
-    return "";
-}
-
-inline bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
-
 }  // namespace salma::test

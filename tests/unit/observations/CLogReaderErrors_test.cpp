@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
+#include <messages.h>
 #include <salma/observations/CLogReader.h>
 
 #include <cstring>
@@ -16,6 +17,8 @@ using test::CTemporaryFolder;
 
 namespace {
 
+using salma::test::contains;
+
 /// The message of a reader that must throw; "" (a failure) if it does not.
 std::string messageOf(const std::string& file, bool acceptTruncated = false) {
     try {
@@ -30,10 +33,6 @@ std::string messageOf(const std::string& file, bool acceptTruncated = false) {
     }
     ADD_FAILURE() << file << " was read";
     return "";
-}
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
 }
 
 /// Two scans, a picture, odometry and both records of this project.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <messages.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/serialization/CArchive.h>
 #include <salma/observations/CLogReader.h>
@@ -19,6 +20,8 @@ namespace fs = std::filesystem;
 
 namespace salma::observations {
 namespace {
+
+using salma::test::contains;
 
 constexpr double kStart = 1.6e9;
 
@@ -83,10 +86,6 @@ class RepairLog : public testing::Test {
     }
     test::CTemporaryFolder m_folder;
 };
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
 
 }  // namespace
 

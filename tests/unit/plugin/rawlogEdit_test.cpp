@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
+#include <messages.h>
 #include <salma/observations/CLogReader.h>
 #include <salma/observations/CLogWriter.h>
 
@@ -17,6 +18,8 @@ using mrpt::poses::CPose2D;
 using test::CTemporaryFolder;
 
 namespace {
+
+using salma::test::contains;
 
 /// The stock program rawlog-edit of MRPT on a small log that holds records of this project.
 class RawlogEdit : public testing::Test {
@@ -68,10 +71,6 @@ int numberBehind(const std::string& output, const std::string& key) {
     const std::size_t at = output.find(key);
     if (at == std::string::npos) return -1;
     return std::atoi(output.c_str() + output.find_first_of(":/", at + key.size()) + 1);
-}
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // MRPT's rawlog-grabber, as it is installed, with the plug-in and emulated devices.
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <messages.h>
 #include <mrpt/core/bits_math.h>
 #include <mrpt/maps/CPointsMap.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
@@ -32,6 +33,8 @@ using mrpt::RAD2DEG;
 using observations::CObservationPanTilt;
 
 namespace {
+
+using salma::test::contains;
 
 class RawlogGrabber : public testing::Test {
  protected:
@@ -108,10 +111,6 @@ class RawlogGrabber : public testing::Test {
     int m_keys{-1};
     std::future<test::TProcessResult> m_grabber;
 };
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
 
 }  // namespace
 

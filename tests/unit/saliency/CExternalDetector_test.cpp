@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
+#include <messages.h>
 #include <salma/saliency/CExternalDetector.h>
 
 #include <chrono>
@@ -13,6 +14,8 @@
 
 namespace salma::saliency {
 namespace {
+
+using salma::test::contains;
 
 namespace fs = std::filesystem;
 
@@ -50,10 +53,6 @@ class ExternalDetector : public testing::Test {
 
     test::CTemporaryFolder m_folder;
 };
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
 
 std::size_t scratchFolders() {
     std::size_t count = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
+#include <messages.h>
 #include <mrpt/config/CConfigFile.h>
 #include <mrpt/config/CConfigFileMemory.h>
 #include <mrpt/io/CMemoryStream.h>
@@ -22,6 +23,9 @@
 
 namespace salma::sensing {
 namespace {
+
+using salma::test::contains;
+using salma::test::messageOf;
 
 using mrpt::obs::CObservation;
 using mrpt::obs::CObservationImage;
@@ -99,20 +103,6 @@ class SalientSensor : public testing::Test {
     CSalientLandmarkSensor m_sensor;
     std::vector<CObservation::Ptr> m_seen;
 };
-
-template <class CALL>
-std::string messageOf(CALL call) {
-    try {
-        call();
-    } catch (const std::exception& error) {
-        return error.what();
-    }
-    return "";
-}
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
 
 std::string bytesOf(const CObservationSalientLandmarks& record) {
     mrpt::io::CMemoryStream stream;

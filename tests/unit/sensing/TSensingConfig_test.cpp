@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
+#include <messages.h>
 #include <salma/sensing/TSensingConfig.h>
 
 #include <stdexcept>
@@ -10,6 +11,8 @@
 namespace salma::sensing {
 namespace {
 
+using salma::test::contains;
+
 std::string complaint(const std::string& ini) {
     const test::CTemporaryFolder folder;
     try {
@@ -18,10 +21,6 @@ std::string complaint(const std::string& ini) {
         return error.what();
     }
     return "";
-}
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
 }
 
 TEST(TSensingConfig, ReadsAConfigOfSalmaSlam) {

@@ -5,6 +5,7 @@
 #include <mrpt/system/COutputLogger.h>
 #include <salma/config/TStrictOptions.h>
 #include <salma/drivers/CReconnection.h>
+#include <salma/drivers/TGrabberKeys.h>
 
 #include <memory>
 #include <string>
@@ -14,13 +15,10 @@ namespace salma::drivers {
 class CSentenceLine;
 
 /// A section of a rawlog-grabber ini file for CWheelOdometry.
-struct TWheelOdometryOptions : public config::TStrictOptions<TWheelOdometryOptions> {
-    std::string driver{"CWheelOdometry"};
-    std::string sensorLabel{"ODOMETRY"};
-    double processRate{500};  //!< Looks a second: a stamp is late by the time between two.
-    int maxQueue{200};
-    int decimation{1};
-    std::string ignore{"false"};
+struct TWheelOdometryOptions : public config::TStrictOptions<TWheelOdometryOptions>,
+                               public TGrabberKeys {
+    TWheelOdometryOptions() : TGrabberKeys("CWheelOdometry", "ODOMETRY", 500) {}
+
     std::string port{"/dev/ttyS0"};
     int baud{115200};
     double latency{0};        //!< From the reading of the wheels to the first byte [s].

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <salma/config/TStrictOptions.h>
+#include <salma/drivers/TGrabberKeys.h>
 
 #include <string>
 
@@ -9,14 +10,8 @@ namespace salma::drivers {
 
 /** A section of a rawlog-grabber ini file for a SICK LMS 200. Keys that MRPT's CSickLaserSerial has
  * keep their names and meaning. */
-struct TLms200Options : public config::TStrictOptions<TLms200Options> {
-    std::string driver{"CLms200"};
-    std::string sensorLabel{"LASER"};
-    double processRate{
-        500};  //!< Looks for scans a second: a stamp is late by the time between two.
-    int maxQueue{200};
-    int decimation{1};
-    std::string ignore{"false"};
+struct TLms200Options : public config::TStrictOptions<TLms200Options>, public TGrabberKeys {
+    TLms200Options() : TGrabberKeys("CLms200", "LASER", 500) {}
 
     std::string port{"/dev/ttyS0"};
     int baud{38400};                   //!< 9600, 38400 or 500000.

@@ -3,6 +3,7 @@
 
 #include <mrpt/core/bits_math.h>
 #include <salma/config/TStrictOptions.h>
+#include <salma/drivers/TGrabberKeys.h>
 #include <salma/drivers/TViscaOptions.h>
 
 #include <string>
@@ -11,17 +12,13 @@ namespace salma::drivers {
 
 /** A section of a rawlog-grabber ini file: what MRPT itself reads there, the port, the camera, and
  * where head and camera are mounted. Angles [rad], lengths [m]. */
-struct TPanTiltCameraOptions : public config::TStrictOptions<TPanTiltCameraOptions> {
+struct TPanTiltCameraOptions : public config::TStrictOptions<TPanTiltCameraOptions>,
+                               public TGrabberKeys {
+    TPanTiltCameraOptions() : TGrabberKeys("CPanTiltCameraSensor", "HEAD", 10) {}
+
     struct TMount {
         double x{0}, y{0}, z{0}, yaw{0}, pitch{0}, roll{0};
     };
-
-    std::string driver{"CPanTiltCameraSensor"};  //!< The keys up to `ignore` keep MRPT's names.
-    std::string sensorLabel{"HEAD"};
-    double processRate{10};  //!< Records a second.
-    int maxQueue{200};
-    int decimation{1};
-    std::string ignore{"false"};
 
     std::string port{"/dev/ttyS0"};
     TViscaOptions camera;

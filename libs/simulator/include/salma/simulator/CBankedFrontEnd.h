@@ -26,9 +26,7 @@ struct TWallsInView {
 /// What the scan nearest to picture `index` shows; nothing within `maxSkew` [s]. The robot's motion
 /// between both is that of odometry with medium noise, whatever the run's own level: records are
 /// those of a front end that has worked once for runs of all levels.
-std::optional<TWallsInView> wallsInView(const CSimulator& drive,
-                                        std::size_t index,
-                                        double maxSkew);
+std::optional<TWallsInView> wallsInView(const CSimulator& drive, std::size_t index, double maxSkew);
 
 /** Stands for camera and front end in a run without pictures: gives the record that they would.
  *

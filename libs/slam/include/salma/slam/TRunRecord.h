@@ -46,7 +46,7 @@ struct TAssociationRow {
     double distance2{0};  //!< Squared Mahalanobis distance to it; NaN for none.
     double logRatio{0};   //!< Log likelihood ratio of the appearance; NaN for none.
     std::size_t candidates{0};
-    std::shared_ptr<const observations::TPatch> patch;  //!< As seen; null for a corner.
+    std::shared_ptr<const observations::TPatch> patch{};  //!< As seen; null for a corner.
 };
 
 /// A row of candidates.csv: a landmark inside the gate of an observation.
