@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <salma/slam/CRelocator.h>
+
+#include <memory>
+
+namespace salma::slam {
+namespace {
+
+constexpr double kDrift = 10;  // sigma of where the local map lies [m]
+
+double ratio(const observations::TPatch& a, const observations::TPatch& b) {
+    return a.width == b.width ? 8 : -3;
+}
+
+/// Two pictures on one wall, driven past in the places that are named, one after the other.
+class CTwoPictures {
+ public:
+    void passAt(double y, bool local) {
+        TPastStep step;
+        step.increment = {m_history.empty() ? 0.0 : 40.0, 0, 0};
+        step.Q.diagonal() << kDrift * kDrift, kDrift * kDrift, 0.01;
+        step.pose = {10, y, 0};
+        for (const double side : {-1.0, 1.0}) see({10 + side, y + 1}, 1.5 + side, local, step);
+        m_history.add(step);
+        m_pose = step.pose;
+    }
+
+    TRelocation relocated(const TRelocationOptions& options = {}) {
+        const auto size = static_cast<Eigen::Index>(3 + 2 * m_places.size());
+        Eigen::VectorXd mean(size);
+        mean.head<3>() = m_pose;
+        RowMatrix covariance = 1e-3 * RowMatrix::Identity(size, size);
+        Eigen::MatrixXd drift = Eigen::MatrixXd::Zero(size, 2);  // moves robot and local map alike
+        drift.topRows<2>().setIdentity();
+        for (std::size_t i = 0; i < m_places.size(); ++i) {
+            const auto row = static_cast<Eigen::Index>(3 + 2 * i);
+            mean.segment<2>(row) = m_places[i];
+            if (m_local[i]) drift.middleRows<2>(row).setIdentity();
+        }
+        covariance += kDrift * kDrift * drift * drift.transpose();
+        const PatchRatio compare = ratio;
+        return CRelocator(options).find({m_landmarks, mean, covariance, m_history, compare});
+    }
+
+ private:
+    void see(const Eigen::Vector2d& place, double mark, bool local, TPastStep& step) {
+        association::TMeasurement seen;
+        seen.kind = association::ELandmarkKind::salient;
+        const Eigen::Vector2d away = place - step.pose.head<2>();
+        seen.z = {away.norm(), std::atan2(away.y(), away.x())};
+        seen.R = Eigen::Vector2d(1e-3, 1e-4).asDiagonal();
+        seen.wallAngle = -M_PI / 2;
+        seen.wallAngleSigma = 0.02;
+        auto patch = std::make_shared<observations::TPatch>();
+        patch->width = mark;
+        seen.patch = patch;
+        const int id = m_landmarks.add(seen, 0);
+        m_landmarks.sight(m_places.size(), seen, 0, {0, 0.01});
+        step.used.push_back({id, seen.z, seen.R});
+        m_places.push_back(place);
+        m_local.push_back(local);
+    }
+
+    CLandmarkTable m_landmarks{4, 0.2};
+    CPathHistory m_history;
+    std::vector<Eigen::Vector2d> m_places;
+    std::vector<bool> m_local;
+    Eigen::Vector3d m_pose{0, 0, 0};
+};
+
+TEST(CRelocator, FindsThePlaceThatHasBothPictures) {
+    CTwoPictures world;
+    world.passAt(0, false);
+    world.passAt(8, true);
+    const TRelocation found = world.relocated();
+    EXPECT_EQ(found.outcome, ERelocation::found);
+    EXPECT_NEAR(found.best.T[1], -8, 0.1);
+    EXPECT_EQ(found.best.matchedPosters(), 2u);
+}
+
+TEST(CRelocator, DoesNotChooseBetweenTwoPlacesAlike) {
+    CTwoPictures world;
+    world.passAt(0, false);
+    world.passAt(16, false);
+    world.passAt(8, true);
+    EXPECT_EQ(world.relocated().outcome, ERelocation::unproved) << "look-alikes say little";
+    TRelocationOptions options;
+    options.accept = -100;  // the margin alone
+    const TRelocation doubtful = world.relocated(options);
+    EXPECT_EQ(doubtful.outcome, ERelocation::ambiguous);
+    EXPECT_LT(doubtful.margin, options.margin);
+    options.margin = 0;
+    EXPECT_EQ(world.relocated(options).outcome, ERelocation::found) << "nothing else is in the way";
+}
+
+TEST(CRelocator, AsksForTheScore) {
+    CTwoPictures world;
+    world.passAt(0, false);
+    world.passAt(8, true);
+    TRelocationOptions strict;
+    strict.accept = 1000;
+    EXPECT_EQ(world.relocated(strict).outcome, ERelocation::unproved);
+}
+
+}  // namespace
+}  // namespace salma::slam
