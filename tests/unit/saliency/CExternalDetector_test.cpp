@@ -10,6 +10,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "CEnvironmentVariable.h"
 #include "CTemporaryFolder.h"
 
 namespace salma::saliency {
@@ -53,13 +54,6 @@ class ExternalDetector : public testing::Test {
 
     test::CTemporaryFolder m_folder;
 };
-
-std::size_t scratchFolders() {
-    std::size_t count = 0;
-    for (const auto& entry : fs::directory_iterator(fs::temp_directory_path()))
-        count += entry.path().filename().string().find("salma-regions-") == 0;
-    return count;
-}
 
 }  // namespace
 
@@ -150,12 +144,19 @@ TEST_F(ExternalDetector, SaysWhichProgramCannotBeStarted) {
 }
 
 TEST_F(ExternalDetector, LeavesNoFilesBehind) {
-    const auto before = scratchFolders();
+    // A folder of this test's own: tests beside it have scratch folders too.
+    const test::CTemporaryFolder scratch;
+    const test::CEnvironmentVariable folder("TMPDIR", scratch.path().string());
     m_folder.write("good", kGood);
     run("cp " + path("good") + " $2");
-    complaint("exit 1");
+    complaint("test -s $1 || exit 2; exit 1");
     complaint("sleep 100", 0.1);
-    EXPECT_EQ(scratchFolders(), before);
+    EXPECT_TRUE(fs::is_empty(scratch.path()));
+    run("dirname $1 > " + path("used") + "; cp " + path("good") + " $2");
+    std::ifstream used(path("used"));
+    std::string where;
+    std::getline(used, where);
+    EXPECT_EQ(fs::path(where).parent_path(), scratch.path());
 }
 
 TEST_F(ExternalDetector, EitherTakesOrRefusesAnyBrokenFile) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <CEnvironmentVariable.h>
 #include <CTemporaryFolder.h>
 #include <gtest/gtest.h>
 #include <salma/viz/CPlots.h>
@@ -126,23 +127,21 @@ TEST(CPlots, DrawsAnEmptyRunAndASingleStep) {
 
 TEST(CPlots, SaysThatGnuplotIsMissing) {
     const test::CTemporaryFolder folder;
-    const std::string path = std::getenv("PATH");
-    setenv("PATH", folder.path().c_str(), 1);
+    const test::CEnvironmentVariable path("PATH", folder.path().string());
     try {
         plotMap({slam::TRunRecord{}, {}}, (folder / "map.png").string());
         ADD_FAILURE() << "drew without gnuplot";
     } catch (const std::runtime_error& e) {
         EXPECT_NE(std::string(e.what()).find("gnuplot cannot be started"), std::string::npos);
     }
-    setenv("PATH", path.c_str(), 1);
 }
 
 TEST(CPlots, PassesOnWhatGnuplotComplainsAbout) {
     const test::CTemporaryFolder folder;
     folder.write("gnuplot", "#!/bin/sh\necho 'unknown terminal pngcairo' >&2\nexit 1\n");
     std::filesystem::permissions(folder / "gnuplot", std::filesystem::perms::all);
-    const std::string path = std::getenv("PATH");
-    setenv("PATH", (folder.path().string() + ":" + path).c_str(), 1);
+    const test::CEnvironmentVariable path("PATH",
+                                          folder.path().string() + ":" + std::getenv("PATH"));
     try {
         plotMap({slam::TRunRecord{}, {}}, (folder / "map.png").string());
         ADD_FAILURE() << "drew with a broken gnuplot";
@@ -150,7 +149,6 @@ TEST(CPlots, PassesOnWhatGnuplotComplainsAbout) {
         EXPECT_NE(std::string(e.what()).find("unknown terminal pngcairo"), std::string::npos);
         EXPECT_NE(std::string(e.what()).find("map.png"), std::string::npos);
     }
-    setenv("PATH", path.c_str(), 1);
 }
 
 }  // namespace
