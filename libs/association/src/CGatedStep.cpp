@@ -265,10 +265,9 @@ TAssociation CGatedStep<DIM>::finish(const TSearchCounts& search) {
         TDecision& decision = m_result.decisions[i];
         for (const TPair& pair : m_pairs[i]) {
             const bool chosen = decision.landmark == static_cast<int>(pair.landmark);
-            if (!pair.inGate && !chosen) continue;
-            ++decision.candidates;
+            if (pair.inGate || chosen) ++decision.candidates;
             m_result.candidates.push_back(
-                {i, pair.landmark, pair.distance2, pair.logRatio, chosen});
+                {i, pair.landmark, pair.distance2, pair.logRatio, chosen, pair.inGate});
         }
     }
     m_result.jointDistance2 = m_joint.distance2();

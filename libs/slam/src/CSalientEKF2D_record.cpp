@@ -14,7 +14,7 @@ void CSalientEKF2D::noteAssociation(const association::TAssociationProblem& prob
     for (const auto& candidate : m_now.association->candidates)
         m_record.candidates.push_back({time, candidate.observation,
                                        m_landmarks[candidate.landmark].id, candidate.distance2,
-                                       candidate.logRatio, candidate.chosen});
+                                       candidate.logRatio, candidate.chosen, candidate.inGate});
     for (std::size_t i = 0; i < problem.measurements.size(); ++i) {
         const int landmark = m_now.association->decisions[i].landmark;
         if (landmark < 0) continue;

@@ -239,7 +239,7 @@ void CSalientEKF3D::noteStep() {
         for (const auto& candidate : m_now.association->candidates)
             m_record.candidates.push_back({time, candidate.observation,
                                            m_landmarks[candidate.landmark].id, candidate.distance2,
-                                           candidate.logRatio, candidate.chosen});
+                                           candidate.logRatio, candidate.chosen, candidate.inGate});
     const auto flatPose = pose();
     row.time = time;
     row.pose = flatPose.mean;

@@ -97,7 +97,6 @@ void CSalientRBPF2D::process(const TStepInput& step) {
     move(step);
     refuseWeights();
     m_steps.push_back({step, pose().cov.asEigen()});
-    for (auto& m : m_steps.back().input.measurements) m.patch.reset();  // the maps keep what counts
     keepDecisions();
     if (m_steps.size() % kStepsBetweenCleanings == 0) forgetDecisions();
 }
@@ -277,7 +276,7 @@ void CSalientRBPF2D::noteDecisions(const TDecided& decided, TRunRecord& record) 
     for (const auto& candidate : decided.outcomes.candidates)
         record.candidates.push_back({step.input.time, candidate.observation,
                                      static_cast<int>(candidate.landmark), candidate.distance2,
-                                     candidate.logRatio, candidate.chosen});
+                                     candidate.logRatio, candidate.chosen, candidate.inGate});
 }
 
 }  // namespace salma::slam

@@ -57,6 +57,7 @@ TAssociationRow associationRow(const TStepInput& step,
     row.distance2 = details.distance2;
     row.logRatio = details.logRatio;
     row.candidates = details.candidates;
+    row.reason = details.reason;
     row.patch = m.patch;
     return row;
 }

@@ -252,12 +252,10 @@ std::string CReport::doubtfulTable() const {
         for (const auto& doubtful : doubtfulPairings(record)) rows += doubtfulRow(record, doubtful);
     if (rows.empty()) return "";
     return "<h2>The most doubtful pairings</h2>\n<p>Pairings of salient landmarks that came "
-           "nearest "
-           "to being another or none. Margin: log likelihood (log LR - d&sup2;/2) above that of "
-           "the "
-           "rival, the next best landmark, or above the edge of the gate where there is none. A "
-           "log LR of "
-           "0: the look had counted before in this track.</p>\n<table><thead><tr><th>seen</th>"
+           "nearest to being another or none. Margin: log likelihood (log LR - d&sup2;/2) above "
+           "that of the rival, the next best landmark, or above the edge of the gate where there "
+           "is none. A log LR of 0: the look had counted before in this track; none: the method "
+           "does not look at appearance, or it could not tell.</p>\n<table><thead><tr><th>seen</th>"
            "<th>landmark</th><th>t [s]</th><th>observation</th><th>id</th><th>d&sup2;</th>"
            "<th>log LR</th><th>margin</th><th>rival</th><th></th><th>its d&sup2;</th>"
            "<th>its log LR</th></tr></thead><tbody>\n" +

@@ -17,6 +17,7 @@ namespace salma::viz {
 namespace {
 
 using association::ELandmarkKind;
+using association::EReason;
 using slam::EDecision;
 using slam::TRunRecord;
 using Cells = std::vector<std::string>;
@@ -76,7 +77,8 @@ Cells cellsOf(const slam::TAssociationRow& a) {
             a.landmark < 0 ? "" : std::to_string(a.landmark),
             number(a.distance2),
             number(a.logRatio),
-            std::to_string(a.candidates)};
+            std::to_string(a.candidates),
+            nameOf(a.reason)};
 }
 
 Cells cellsOf(const slam::TCandidateRow& c) {
@@ -85,7 +87,8 @@ Cells cellsOf(const slam::TCandidateRow& c) {
             std::to_string(c.landmark),
             number(c.distance2),
             number(c.logRatio),
-            c.chosen ? "1" : "0"};
+            c.chosen ? "1" : "0",
+            c.inGate ? "1" : "0"};
 }
 
 Cells cellsOf(const slam::TRelocationRow& r) {
@@ -213,6 +216,38 @@ std::string nameOf(EDecision decision) {
     throw std::invalid_argument("a decision of unknown kind");
 }
 
+std::string nameOf(EReason reason) {
+    switch (reason) {
+        case EReason::nearest:
+            return "nearest";
+        case EReason::identity:
+            return "identity";
+        case EReason::unexplained:
+            return "unexplained";
+        case EReason::nearLandmark:
+            return "near_landmark";
+        case EReason::taken:
+            return "taken";
+        case EReason::jointlyImpossible:
+            return "jointly_impossible";
+        case EReason::ambiguous:
+            return "ambiguous";
+        case EReason::unsureAppearance:
+            return "unsure_appearance";
+        case EReason::improbable:
+            return "improbable";
+        case EReason::tooMany:
+            return "too_many";
+        case EReason::notFinite:
+            return "not_finite";
+        case EReason::badCovariance:
+            return "bad_covariance";
+        case EReason::repeatedIdentity:
+            return "repeated_identity";
+    }
+    throw std::invalid_argument("a reason of unknown kind");
+}
+
 std::string nameOf(ELandmarkKind kind) {
     return kind == ELandmarkKind::salient ? "salient" : "corner";
 }
@@ -227,12 +262,12 @@ std::vector<std::string> spatialLandmarkColumns() {
 }
 
 std::vector<std::string> associationColumns() {
-    return {"t_s",  "observation", "kind",        "range_m", "bearing_deg", "u_px",
-            "v_px", "decision",    "landmark_id", "d2",      "log_lr",      "n_candidates"};
+    return {"t_s",      "observation", "kind", "range_m", "bearing_deg",  "u_px",  "v_px",
+            "decision", "landmark_id", "d2",   "log_lr",  "n_candidates", "reason"};
 }
 
 std::vector<std::string> candidateColumns() {
-    return {"t_s", "observation", "landmark_id", "d2", "log_lr", "chosen"};
+    return {"t_s", "observation", "landmark_id", "d2", "log_lr", "chosen", "in_gate"};
 }
 
 std::vector<std::string> relocationColumns() {

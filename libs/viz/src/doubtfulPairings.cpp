@@ -27,7 +27,7 @@ TDoubtfulPairing judged(const TAssociationRow& pairing,
     const auto [first, last] = candidates.equal_range({pairing.time, pairing.observation});
     for (auto it = first; it != last; ++it) {
         const TCandidateRow& other = *it->second;
-        if (other.landmark == pairing.landmark) continue;
+        if (other.landmark == pairing.landmark || !other.inGate) continue;
         const double its = evidence(other.distance2, other.logRatio);
         if (!(its > best)) continue;
         best = its;

@@ -36,15 +36,15 @@ constexpr auto kPath =
 /// Poster 1 again rightly, poster 2 taken for poster 1, poster 1 made twice, a false entity.
 constexpr auto kAssociations =
     "t_s,observation,kind,range_m,bearing_deg,u_px,v_px,decision,landmark_id,d2,log_lr,"
-    "n_candidates\n"
-    "10.000000,0,salient,4,14,105,205,new,0,,,0\n"
-    "10.000000,1,salient,4,-14,490,205,new,1,,,0\n"
-    "10.000000,2,corner,2,0,,,new,2,,,0\n"
-    "11.000000,0,salient,4,14,112,203,paired,0,1.5,8,1\n"
-    "11.000000,1,salient,4,-14,505,199,paired,0,2.5,1,2\n"
-    "11.000000,2,salient,6,40,300,20,new,4,,,0\n"
-    "11.000000,3,corner,2.1,0,,,paired,2,0.5,,1\n"
-    "12.000000,0,salient,4,14,121,201,new,5,,,0\n";
+    "n_candidates,reason\n"
+    "10.000000,0,salient,4,14,105,205,new,0,,,0,unexplained\n"
+    "10.000000,1,salient,4,-14,490,205,new,1,,,0,unexplained\n"
+    "10.000000,2,corner,2,0,,,new,2,,,0,unexplained\n"
+    "11.000000,0,salient,4,14,112,203,paired,0,1.5,8,1,nearest\n"
+    "11.000000,1,salient,4,-14,505,199,paired,0,2.5,1,2,nearest\n"
+    "11.000000,2,salient,6,40,300,20,new,4,,,0,unexplained\n"
+    "11.000000,3,corner,2.1,0,,,paired,2,0.5,,1,nearest\n"
+    "12.000000,0,salient,4,14,121,201,new,5,,,0,unexplained\n";
 
 /// A folder with "truth" and "run".
 struct TPair {

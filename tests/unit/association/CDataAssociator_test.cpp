@@ -73,6 +73,22 @@ TEST_P(CDataAssociatorTest, DefersBetweenTheGateAndTheDistanceOfANewLandmark) {
     EXPECT_EQ(verdict(2.548), EVerdict::created);
 }
 
+TEST_P(CDataAssociatorTest, ListsEachLandmarkThatIsNearWithItsDistance) {
+    // Innovations 0.1, 0.4 and 0.7 m with sigma = 0.1 m: in the gate, near, far.
+    const auto result =
+        associate(test::problem({test::seen(2, 0)}, {{2.7, 0}, {2.1, 0}, {1.6, 0}}));
+    ASSERT_EQ(result.candidates.size(), 2u);
+    EXPECT_EQ(result.candidates[0].landmark, 1u);
+    EXPECT_NEAR(result.candidates[0].distance2, 1, 1e-9);
+    EXPECT_TRUE(result.candidates[0].inGate);
+    EXPECT_EQ(result.candidates[1].landmark, 2u);
+    EXPECT_NEAR(result.candidates[1].distance2, 16, 1e-9);
+    EXPECT_FALSE(result.candidates[1].inGate);
+    EXPECT_FALSE(result.candidates[1].chosen);
+    EXPECT_TRUE(std::isnan(result.candidates[0].logRatio));
+    EXPECT_EQ(result.decisions[0].candidates, 1u);
+}
+
 TEST_P(CDataAssociatorTest, NeverPairsALandmarkTwice) {
     const auto result =
         associate(test::problem({test::seen(2.25, 0), test::seen(2.01, 0)}, {{2, 0}}));

@@ -15,6 +15,7 @@ namespace salma::viz {
 namespace {
 
 using association::ELandmarkKind;
+using association::EReason;
 using slam::EDecision;
 using slam::TRunRecord;
 
@@ -33,8 +34,10 @@ TEST(CRunWriter, WritesEachTableAsTheDesignNamesIt) {
     landmark.lastTime = 2;
     record.landmarks = {landmark};
     record.associations = {{1.5, 0, ELandmarkKind::salient, 2, M_PI / 2, 10.5, 20, std::nan(""),
-                            EDecision::created, 3, std::nan(""), std::nan(""), 0}};
-    record.candidates = {{1.5, 1, 3, 0.5, std::nan(""), true}};
+                            EDecision::created, 3, std::nan(""), std::nan(""), 0,
+                            EReason::unexplained}};
+    record.candidates = {{1.5, 1, 3, 0.5, std::nan(""), true, true},
+                         {1.5, 1, 4, 12.5, -1, false, false}};
     record.innovations = {{1.5, "bearing_deg", -0.125, 2}};
     const test::CTemporaryFolder folder;
     CRunWriter(folder.path()).writeTables(record);
@@ -44,9 +47,10 @@ TEST(CRunWriter, WritesEachTableAsTheDesignNamesIt) {
               "3,corner,1,2,0.2,0.5,5,1.000000,2.000000\n");
     EXPECT_EQ(test::readFile(folder / "associations.csv"),
               "t_s,observation,kind,range_m,bearing_deg,u_px,v_px,decision,landmark_id,d2,log_lr,"
-              "n_candidates\n1.500000,0,salient,2,90,10.5,20,new,3,,,0\n");
+              "n_candidates,reason\n1.500000,0,salient,2,90,10.5,20,new,3,,,0,unexplained\n");
     EXPECT_EQ(test::readFile(folder / "candidates.csv"),
-              "t_s,observation,landmark_id,d2,log_lr,chosen\n1.500000,1,3,0.5,,1\n");
+              "t_s,observation,landmark_id,d2,log_lr,chosen,in_gate\n1.500000,1,3,0.5,,1,1\n"
+              "1.500000,1,4,12.5,-1,0,0\n");
     EXPECT_EQ(test::readFile(folder / "innovations.csv"),
               "t_s,component,value,sigma\n1.500000,bearing_deg,-0.125,2\n");
 }
@@ -66,6 +70,26 @@ TEST(CRunWriter, NamesEveryDecision) {
     ASSERT_EQ(table.rows(), names.size());
     for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(table.text(i, "decision"), names[i]);
     EXPECT_EQ(table.text(0, "landmark_id"), "") << "-1 is no landmark";
+}
+
+TEST(CRunWriter, NamesEveryReason) {
+    const std::vector<std::string> names{"nearest",
+                                         "identity",
+                                         "unexplained",
+                                         "near_landmark",
+                                         "taken",
+                                         "jointly_impossible",
+                                         "ambiguous",
+                                         "unsure_appearance",
+                                         "improbable",
+                                         "too_many",
+                                         "not_finite",
+                                         "bad_covariance",
+                                         "repeated_identity"};
+    for (std::size_t i = 0; i < names.size(); ++i)
+        EXPECT_EQ(nameOf(static_cast<EReason>(i)), names[i]);
+    EXPECT_EQ(names.size(), static_cast<std::size_t>(EReason::repeatedIdentity) + 1);
+    EXPECT_THROW(nameOf(static_cast<EReason>(names.size())), std::invalid_argument);
 }
 
 TEST(CRunWriter, WritesTablesThatReadBackToTheRecord) {

@@ -39,9 +39,10 @@ TEST(DoubtfulPairings, WithoutARivalTheEdgeOfTheGateIsTheMeasure) {
 
 TEST(DoubtfulPairings, TheBestOtherCandidateOfTheSameObservationIsTheRival) {
     auto record = recordOf({pairing(1, 3, 2, 5)});
-    record.candidates = {{1, 0, 3, 2, 5, true},    {1, 0, 4, 1, 4, false},
-                         {1, 0, 5, 1, 3.5, false}, {1, 1, 6, 0.1, 9, false},
-                         {2, 0, 7, 0.1, 9, false}, {1, 0, 8, 9, -8, false}};
+    record.candidates = {{1, 0, 3, 2, 5, true},          {1, 0, 4, 1, 4, false},
+                         {1, 0, 5, 1, 3.5, false},       {1, 1, 6, 0.1, 9, false},
+                         {2, 0, 7, 0.1, 9, false},       {1, 0, 8, 9, -8, false},
+                         {1, 0, 9, 12, 20, false, false}};  // outside the gate: no rival
     const auto found = doubtfulPairings(record, 5, kGate);
     ASSERT_EQ(found.size(), 1U);
     EXPECT_EQ(found[0].rival, 4);

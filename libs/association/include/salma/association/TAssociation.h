@@ -35,13 +35,14 @@ struct TDecision {
     std::size_t candidates{0};                                   //!< Landmarks inside its gate.
 };
 
-/// A landmark inside the gate of a measurement.
+/// A landmark that a measurement could be, or that is so near that no new one can stand there.
 struct TCandidate {
     std::size_t observation{0};
     std::size_t landmark{0};
     double distance2{0};  //!< Squared Mahalanobis distance, wrapped in the angles.
     double logRatio{std::numeric_limits<double>::quiet_NaN()};  //!< NaN without appearance.
     bool chosen{false};
+    bool inGate{true};  //!< False: only within `newDistance2`.
 };
 
 /// Pairs (measurement, landmark) that a test excluded, each counted at its first failure.

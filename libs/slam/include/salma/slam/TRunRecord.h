@@ -4,6 +4,7 @@
 #include <mrpt/math/TPoint2D.h>
 #include <mrpt/poses/CPose2D.h>
 #include <mrpt/poses/CPose3D.h>
+#include <salma/association/TAssociation.h>
 #include <salma/association/TMeasurement.h>
 
 #include <Eigen/Core>
@@ -42,14 +43,16 @@ struct TAssociationRow {
     /// From the camera's axis to the centre, to the right [rad]; NaN for a corner. Not written.
     double axisAngle{std::numeric_limits<double>::quiet_NaN()};
     EDecision decision{EDecision::clutter};
-    int landmark{-1};     //!< Id; -1 for none.
-    double distance2{0};  //!< Squared Mahalanobis distance to it; NaN for none.
-    double logRatio{0};   //!< Log likelihood ratio of the appearance; NaN for none.
-    std::size_t candidates{0};
+    int landmark{-1};           //!< Id; -1 for none.
+    double distance2{0};        //!< Squared Mahalanobis distance to it; NaN for none.
+    double logRatio{0};         //!< Log likelihood ratio of the appearance; NaN for none.
+    std::size_t candidates{0};  //!< Landmarks inside its gate.
+    /// Of the association; what is new by it may still be provisional.
+    association::EReason reason{association::EReason::notFinite};
     std::shared_ptr<const observations::TPatch> patch{};  //!< As seen; null for a corner.
 };
 
-/// A row of candidates.csv: a landmark inside the gate of an observation.
+/// A row of candidates.csv: a landmark that an observation could be, or that is near it.
 struct TCandidateRow {
     double time{0};
     std::size_t observation{0};
@@ -57,6 +60,7 @@ struct TCandidateRow {
     double distance2{0};
     double logRatio{0};  //!< NaN without appearance.
     bool chosen{false};
+    bool inGate{true};  //!< False: only within `new_distance2`.
 };
 
 /// A row of innovations.csv.

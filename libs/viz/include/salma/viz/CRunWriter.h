@@ -27,8 +27,9 @@ struct TDecisionCounts {
 };
 TDecisionCounts countDecisions(const slam::TRunRecord& record);
 
-/// Names as the files hold them: "paired", "new", ...; "salient", "corner".
+/// Names as the files hold them: "paired", "new", ...; "nearest", ...; "salient", "corner".
 std::string nameOf(slam::EDecision decision);
+std::string nameOf(association::EReason reason);
 std::string nameOf(association::ELandmarkKind kind);
 
 /// Columns of the files, in their order.
