@@ -54,6 +54,8 @@ struct TRunScore {
     std::uint64_t relocations{0};  //!< Steps with a decision "relocated".
     std::uint64_t repeatedWrongPairs{0};  //!< Salient landmarks that were paired with one other
                                           //!< true landmark in two steps or more.
+    std::uint64_t wrongCopies{0};  //!< Pairings of a poster with a copy of it: same texture, other
+                                   //!< landmark.
     TKindScore salient, corners;
 
     /// Calls visit(name, field) for each field. Angles are in degrees in columns named _deg only.
@@ -73,6 +75,7 @@ struct TRunScore {
         visit("nees_at", s.neesAt);
         visit("relocations", s.relocations);
         visit("repeated_wrong_pairs", s.repeatedWrongPairs);
+        visit("wrong_copies", s.wrongCopies);
         TKindScore::forEach(s.salient, "salient_", visit);
         TKindScore::forEach(s.corners, "corner_", visit);
     }

@@ -48,6 +48,17 @@ std::uint64_t repeatedWrongPairs(const TAssociationFigures& figures) {
         times.begin(), times.end(), [](const auto& pair) { return pair.second.size() > 1; }));
 }
 
+/// Pairings of a poster with another one that has the same texture.
+std::uint64_t wrongCopies(const TAssociationFigures& figures, const TTruth& truth) {
+    std::map<int, std::string> textures;
+    for (const auto& landmark : truth.landmarks) textures[landmark.id] = landmark.texture;
+    return static_cast<std::uint64_t>(
+        std::count_if(figures.wrong.begin(), figures.wrong.end(), [&](const TWrongPairing& wrong) {
+            const std::string& texture = textures[wrong.landmarkTruth];
+            return !texture.empty() && texture == textures[wrong.observationTruth];
+        }));
+}
+
 std::uint64_t relocations(const slam::TRunRecord& record) {
     std::set<double> times;
     for (const auto& row : record.associations)
@@ -127,6 +138,7 @@ TRunScore scoreRun(const slam::TRunRecord& record, const TTruth& truth, int laps
     s.salient = kindScore(kinds[ELandmarkKind::salient]);
     s.corners = kindScore(kinds[ELandmarkKind::corner]);
     s.repeatedWrongPairs = repeatedWrongPairs(kinds[ELandmarkKind::salient]);
+    s.wrongCopies = wrongCopies(kinds[ELandmarkKind::salient], truth);
     s.relocations = relocations(record);
     return s;
 }

@@ -139,7 +139,10 @@ void writeMeaning(std::ostream& out, const TStudyLimits& limits) {
         << half << " m off, half the spacing of doors, in the frame of the first pose.\n"
         << "- Wrong loop: a salient landmark that stands for one thing was paired with one other "
            "in two steps or more, or one step\n  moved the estimate by more than "
-        << half << " m away from the truth, or the run ended lost.\n"
+        << half
+        << " m away from the truth, or the run ended lost. With copies: of all runs, those with a "
+           "wrong loop in which a poster\n  was also paired with a copy of it, a poster with the "
+           "same texture that hangs elsewhere.\n"
         << "- Precision: right pairings of those that the truth can judge, with entities that show "
            "nothing true counted as wrong where\n  one side is true. Recall: of the sightings of "
            "landmarks made in an earlier step, those paired rightly.\n"
@@ -187,13 +190,19 @@ std::string studyMarkdown(const std::vector<TStudyRow>& rows, const TStudyLimits
     std::ostringstream out;
     out << "# Success\n";
     writeTable(out, rows,
-               {"failed", "success [%]", "wrong loop [%]", "lost [%]", "ATE last lap, median [m]",
-                "ATE last lap [m]", "same, path aligned [m]", "ATE [m]", "odometry alone [m]"},
+               {"failed", "success [%]", "wrong loop [%]", "with copies [%]", "lost [%]",
+                "ATE last lap, median [m]", "ATE last lap [m]", "same, path aligned [m]", "ATE [m]",
+                "odometry alone [m]"},
                [](const TStudyRow& r) -> Cells {
-                   return {std::to_string(r.failed),         counted(r.success),
-                           percent(r.wrongLoop, 1),          percent(r.lost, 1),
-                           fixed(r.medianAteLastLap, 3),     withInterval(r.ateLastLap, 3),
-                           withInterval(r.lastLapInPath, 3), withInterval(r.ate, 3),
+                   return {std::to_string(r.failed),
+                           counted(r.success),
+                           percent(r.wrongLoop, 1),
+                           percent(r.wrongLoopWithCopies, 1),
+                           percent(r.lost, 1),
+                           fixed(r.medianAteLastLap, 3),
+                           withInterval(r.ateLastLap, 3),
+                           withInterval(r.lastLapInPath, 3),
+                           withInterval(r.ate, 3),
                            fixed(r.ateOdometry.mean, 3)};
                });
     out << "# Association\n";
@@ -237,6 +246,8 @@ std::string runsCsv(const std::vector<TRunResult>& results, const TStudyLimits& 
         line("failure", result.failure);
         const bool known = !result.failed();
         line("wrong_loop", std::uint64_t{known && closedWrongLoop(result.score, limits)});
+        line("wrong_loop_with_copies",
+             std::uint64_t{known && closedWrongLoopWithCopies(result.score, limits)});
         TRunScore::forEach(result.score,
                            [&](const auto& name, const auto& value) { line(name, value); });
     };

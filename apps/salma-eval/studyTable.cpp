@@ -129,6 +129,8 @@ TStudyRow figuresOf(const Results& all, const TStudyLimits& limits) {
         return !result.failed() && succeeded(result.score, limits);
     });
     row.wrongLoop = share(done, [&](const auto& r) { return closedWrongLoop(r.score, limits); });
+    row.wrongLoopWithCopies =
+        share(done, [&](const auto& r) { return closedWrongLoopWithCopies(r.score, limits); });
     row.lost = share(done, [&](const auto& r) { return endedLost(r.score, limits); });
     row.noWrongPoster = share(done, [](const auto& r) { return r.score.salient.wrong == 0; });
     addAssociation(done, row);
@@ -189,6 +191,10 @@ bool succeeded(const TRunScore& score, const TStudyLimits& limits) {
 bool closedWrongLoop(const TRunScore& score, const TStudyLimits& limits) {
     return score.repeatedWrongPairs > 0 || !(score.maxJump <= limits.doorSpacing / 2) ||
            endedLost(score, limits);
+}
+
+bool closedWrongLoopWithCopies(const TRunScore& score, const TStudyLimits& limits) {
+    return closedWrongLoop(score, limits) && score.wrongCopies > 0;
 }
 
 std::vector<TStudyRow> studyTable(const std::vector<TRunResult>& results,

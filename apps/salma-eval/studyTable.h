@@ -26,6 +26,9 @@ bool succeeded(const TRunScore& score, const TStudyLimits& limits);
 /// Whether a run ended with its map on a wrong place. Source: own.
 bool closedWrongLoop(const TRunScore& score, const TStudyLimits& limits);
 
+/// Whether in such a run a poster was taken for one of its copies; not whether that was the cause.
+bool closedWrongLoopWithCopies(const TRunScore& score, const TStudyLimits& limits);
+
 /// ANEES at one place of the course: the mean over runs of the NEES there, divided by 3.
 struct TNeesPoint {
     std::size_t runs{0};
@@ -39,6 +42,7 @@ struct TStudyRow {
     std::size_t runs{0}, failed{0};              //!< A failed run has no score, and is no success.
     TProportion success;                         //!< Of all runs.
     TProportion wrongLoop, lost, noWrongPoster;  //!< Of the runs that did not fail; so below.
+    TProportion wrongLoopWithCopies;
     TProportion precision, salientPrecision, cornerPrecision;
     TProportion recall, salientRecall, cornerRecall;
     TMean wrongSalient, wrongCorners;  //!< Wrong pairings of a run.
@@ -64,6 +68,7 @@ struct TStudyRow {
         visit("failed", s.failed);
         visit("success", s.success);
         visit("wrong_loop", s.wrongLoop);
+        visit("wrong_loop_with_copies", s.wrongLoopWithCopies);
         visit("lost", s.lost);
         visit("no_wrong_poster", s.noWrongPoster);
         visit("precision", s.precision);

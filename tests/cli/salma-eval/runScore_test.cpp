@@ -31,6 +31,8 @@ TTruth truthOfTwoLaps() {
     TTrueLandmark a, b;
     a.id = 1;
     b.id = 2;
+    a.texture = "exit";
+    b.texture = "notice";
     truth.landmarks = {a, b};
     return truth;
 }
@@ -88,6 +90,11 @@ TEST(RunScore, CountsWrongPairsThatComeAgain) {
     see(30, 1, EDecision::relocated, 0);
     const auto score = scoreRun(record, truth, 2);
     EXPECT_EQ(score.repeatedWrongPairs, 1u);
+    EXPECT_EQ(score.wrongCopies, 0u) << "they look different";
+    truth.landmarks[1].texture = "exit";
+    EXPECT_EQ(scoreRun(record, truth, 2).wrongCopies, 2u);
+    truth.landmarks[0].texture = truth.landmarks[1].texture = "";
+    EXPECT_EQ(scoreRun(record, truth, 2).wrongCopies, 0u) << "what is not known is no copy";
     EXPECT_EQ(score.salient.wrong, 2u);
     EXPECT_EQ(score.salient.right, 2u);
     EXPECT_EQ(score.salient.judged, 4u);

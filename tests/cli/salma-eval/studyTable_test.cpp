@@ -111,6 +111,22 @@ TEST(StudyTable, AWrongLoopShowsInPairingsJumpsOrTheEnd) {
     EXPECT_TRUE(closedWrongLoop(wrong, limits)) << "what is not known is not right";
 }
 
+TEST(StudyTable, AWrongLoopWithCopiesIsAWrongLoopAndAPairingOfCopies) {
+    std::vector<TRunResult> results(4, madeResult("a", "low", 0.1));
+    results[1].score.wrongCopies = 3;  // noticed in time
+    results[2].score.finalError = 5;   // but for another reason
+    results[3].score.wrongCopies = 1;
+    results[3].score.finalError = 5;
+    const auto row = studyTable(results, {})[0];
+    EXPECT_EQ(row.wrongLoop.count, 2u);
+    EXPECT_EQ(row.wrongLoopWithCopies.count, 1u);
+    EXPECT_EQ(row.wrongLoopWithCopies.total, 4u);
+    const std::string runs = runsCsv(results, {});
+    EXPECT_NE(runs.find(",wrong_loop,wrong_loop_with_copies,"), std::string::npos);
+    EXPECT_NE(runs.find("a,low,ekf,nn,0,,1,0,"), std::string::npos) << runs;
+    EXPECT_NE(runs.find("a,low,ekf,nn,0,,1,1,"), std::string::npos) << runs;
+}
+
 TEST(StudyTable, ALapThatIsRightInItselfButOnAWrongPlaceIsNoSuccess) {
     TRunScore score = madeResult("a", "low", 0.1).score;
     EXPECT_TRUE(succeeded(score, {}));
