@@ -7,14 +7,12 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <chrono>
 #include <csignal>
+#include <ctime>
 #include <system_error>
 
 namespace salma::bench {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 TMrptOutcome compute(const association::TAssociationProblem& problem) {
     const std::size_t observations = problem.measurements.size();
@@ -29,11 +27,11 @@ TMrptOutcome compute(const association::TAssociationProblem& problem) {
             S(2 * j + k, 2 * j + k) += problem.measurements[0].R(k, k);  // the same for all
         }
     mrpt::slam::TDataAssociationResults results;
-    const auto start = Clock::now();
+    const std::clock_t start = std::clock();
     mrpt::slam::data_association_full_covariance(Z, Y, S, results, mrpt::slam::assocJCBB,
                                                  mrpt::slam::metricMaha, 0.99, false);
     TMrptOutcome outcome;
-    outcome.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    outcome.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     outcome.nodes = results.nNodesExploredInJCBB;
     outcome.landmarks.assign(observations, -1);
     for (const auto& [observation, landmark] : results.associations)

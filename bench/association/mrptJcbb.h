@@ -11,7 +11,7 @@ namespace salma::bench {
 struct TMrptOutcome {
     std::vector<int> landmarks;  //!< By observation, -1 for none.
     std::size_t nodes{0};
-    double seconds{0};
+    double seconds{0};  //!< Processor time.
 };
 
 /** What MRPT's JCBB makes of the problem, by Mahalanobis distance at 0.99 and without its kd-tree,

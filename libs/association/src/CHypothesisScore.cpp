@@ -11,6 +11,8 @@
 #include <map>
 #include <stdexcept>
 
+#include "informationBlocks.h"
+
 namespace salma::association {
 namespace {
 
@@ -42,11 +44,10 @@ std::vector<TReadingCovariance<DIM>> remainders(const Eigen::MatrixXd& predictio
     const Eigen::MatrixXd whole = prediction + Eigen::MatrixXd(noise.asDiagonal());
     const Eigen::LLT<Eigen::MatrixXd> factor(whole);
     if (factor.info() != Eigen::Success) return result;
-    const Eigen::MatrixXd information =
-        factor.solve(Eigen::MatrixXd::Identity(whole.rows(), whole.cols()));
+    const auto information = informationBlocks<DIM>(factor);
     for (std::size_t k = 0; k < result.size(); ++k) {
         const auto row = static_cast<Eigen::Index>(DIM * k);
-        TReadingCovariance<DIM> left = information.block<DIM, DIM>(row, row).inverse();
+        TReadingCovariance<DIM> left = information[k].inverse();
         left -= TReadingCovariance<DIM>(noise.segment<DIM>(row).asDiagonal());
         if (left.llt().info() == Eigen::Success) result[k] = left;
     }
@@ -56,6 +57,13 @@ std::vector<TReadingCovariance<DIM>> remainders(const Eigen::MatrixXd& predictio
 template <int DIM>
 double logPeak(const TReadingCovariance<DIM>& covariance) {
     return -std::log(gaussNorm<DIM>() * std::sqrt(covariance.determinant()));
+}
+
+template <int DIM>
+std::optional<CWhitener<DIM>> whitenerOf(const TReadingCovariance<DIM>& covariance) {
+    CWhitener<DIM> whitener;
+    if (whitener.set(covariance)) return whitener;
+    return {};
 }
 
 }  // namespace
@@ -114,11 +122,11 @@ void CHypothesisScore<DIM>::setBounds(const std::vector<TBranch>& branches,
         const auto entry = noiseOf.find(branches[k].landmark);
         const TReadingCovariance<DIM>& C = left[std::distance(noiseOf.begin(), entry)];
         const TReadingCovariance<DIM>& R = m_problem.measurements[branches[k].observation].R;
-        m_terms[k].floor = R + C;
-        m_terms[k].bound = m_terms[k].gain + logPeak<DIM>(m_terms[k].floor);
+        m_terms[k].floor = whitenerOf<DIM>(R + C);
+        m_terms[k].bound = m_terms[k].gain + logPeak<DIM>(R + C);
         const TReadingCovariance<DIM> told =
             C + TReadingCovariance<DIM>(entry->second.asDiagonal());
-        m_terms[k].lowest = R + C - C * told.inverse() * C;
+        m_terms[k].lowest = whitenerOf<DIM>(R + C - C * told.inverse() * C);
     }
 }
 

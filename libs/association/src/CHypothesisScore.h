@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+
 #include "CGatedStep.h"
+#include "CWhitener.h"
 
 namespace salma::association {
 
@@ -30,9 +33,10 @@ class CHypothesisScore {
     double gain(std::size_t branch) const { return m_terms[branch].gain; }
     /// Largest gain + log density in any hypothesis.
     double bound(std::size_t branch) const { return m_terms[branch].bound; }
-    /// Smallest covariance of the innovation in any hypothesis that does not contain the branch.
+    /// Of the smallest covariance of the innovation in any hypothesis that does not contain the
+    /// branch; nothing where it is not sound.
     /// \param landmarkToo The hypothesis may pair the landmark with another measurement.
-    const TReadingCovariance<DIM>& floor(std::size_t branch, bool landmarkToo) const {
+    const std::optional<CWhitener<DIM>>& floor(std::size_t branch, bool landmarkToo) const {
         return landmarkToo ? m_terms[branch].lowest : m_terms[branch].floor;
     }
 
@@ -44,8 +48,7 @@ class CHypothesisScore {
     struct TTerms {
         double gain{0};
         double bound{0};
-        TReadingCovariance<DIM> floor{TReadingCovariance<DIM>::Zero()};
-        TReadingCovariance<DIM> lowest{TReadingCovariance<DIM>::Zero()};
+        std::optional<CWhitener<DIM>> floor, lowest;
     };
     double gainOf(const TBranch& branch, const TPair& pair) const;
     void setBounds(const std::vector<TBranch>& branches, const std::vector<TBranch>& given);

@@ -4,7 +4,6 @@
 #include <mrpt/core/exceptions.h>
 #include <salma/association/CJointInnovation.h>
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
 namespace salma::association {
@@ -46,7 +45,7 @@ void CInterpretationTree<DIM>::extend(TState& state) const {
         cross.noalias() -= other.levels[k].coupling.transpose() * state.levels[k].coupling;
     TLevel next;
     next.stamp = pairing.stamp;
-    next.coupling = pairing.factor.template triangularView<Eigen::Lower>().solve(cross);
+    next.coupling = pairing.whitener * cross;
     next.covariance = state.levels.back().covariance;
     next.covariance.noalias() -= next.coupling.transpose() * next.coupling;
     next.value = state.levels.back().value;
@@ -72,10 +71,10 @@ TBranchTest CInterpretationTree<DIM>::test(std::size_t index) {
     ++m_tests;
     const TLevel& level = current(index);
     const double infinity = std::numeric_limits<double>::infinity();
-    const Eigen::LLT<TReadingCovariance<DIM>> factor(level.covariance);
-    if (factor.info() != Eigen::Success) return {infinity, -infinity};
-    const double distance2 = factor.matrixL().solve(level.value).squaredNorm();
-    const double root = factor.matrixLLT().diagonal().prod();  // of the determinant
+    CWhitener<DIM> whitener;
+    if (!whitener.set(level.covariance)) return {infinity, -infinity};
+    const double distance2 = (whitener * level.value).squaredNorm();
+    const double root = whitener.rootOfDeterminant();
     if (!std::isfinite(distance2) || !(root > 0)) return {infinity, -infinity};
     return {distance2, -std::log(gaussNorm<DIM>() * root)};
 }
@@ -88,8 +87,8 @@ bool CInterpretationTree<DIM>::descend(std::size_t index) {
     TPairing pairing;
     pairing.index = index;
     pairing.stamp = ++m_stamp;
-    pairing.factor = level.covariance.llt().matrixL();
-    pairing.whitened = pairing.factor.template triangularView<Eigen::Lower>().solve(level.value);
+    ASSERT_(pairing.whitener.set(level.covariance));  // as the test found
+    pairing.whitened = pairing.whitener * level.value;
     pairing.distance2 = distanceAt(m_path.size()) + tested.distance2;
     m_path.push_back(pairing);
     m_taken[m_branches[index].branch.landmark] = true;

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "CWhitener.h"
+
 namespace salma::association {
 
 /// A pairing that a hypothesis may contain.
@@ -78,7 +80,7 @@ class CInterpretationTree {
     struct TPairing {
         std::size_t index{0};
         std::uint64_t stamp{0};
-        TReadingCovariance<DIM> factor;  //!< Lower Cholesky factor of its covariance.
+        CWhitener<DIM> whitener;  //!< Of its covariance.
         TReading<DIM> whitened;
         double distance2{0};  //!< Of the path so far.
     };

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CScoredSearch.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -17,7 +16,8 @@ bool contains(const std::vector<std::size_t>& branches, std::size_t branch) {
 
 /// Of a symmetric matrix.
 double largestEigenvalue(const Eigen::Matrix2d& m) {
-    return m.trace() / 2 + std::hypot((m(0, 0) - m(1, 1)) / 2, m(1, 0));
+    const double half = (m(0, 0) - m(1, 1)) / 2;
+    return m.trace() / 2 + std::sqrt(half * half + m(1, 0) * m(1, 0));
 }
 
 double largestEigenvalue(const Eigen::Matrix3d& m) {
@@ -65,12 +65,11 @@ typename CScoredSearch<DIM>::TReach CScoredSearch<DIM>::reach(std::size_t branch
                                                               const TProspect& prospect) const {
     const std::size_t landmark = m_tree[branch].landmark;
     const bool shared = prospect.claims[landmark] > 0 || m_tree.isTaken(landmark);
-    const Eigen::LLT<TReadingCovariance<DIM>> floor(m_score.floor(branch, shared));
+    const auto& floor = m_score.floor(branch, shared);
     TReach result;
-    if (floor.info() != Eigen::Success) return result;
-    result.now = floor.matrixL().solve(m_tree.value(branch)).norm();
-    TReadingCovariance<DIM> grown = floor.matrixL().solve(m_tree.covariance(branch));
-    grown = floor.matrixL().solve(TReadingCovariance<DIM>(grown.transpose()));
+    if (!floor) return result;
+    result.now = (*floor * m_tree.value(branch)).norm();
+    const TReadingCovariance<DIM> grown = floor->ofCovariance(m_tree.covariance(branch));
     // Largest eigenvalue of S - F in units of F; a little more, against rounding.
     result.excess = std::max(0., largestEigenvalue(grown) - 1) + 1e-9;
     const double shift = std::sqrt(result.excess / (1 + result.excess) * prospect.room);
