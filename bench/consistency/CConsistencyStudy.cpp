@@ -96,9 +96,10 @@ TLevelResult study(const CLoopWorld& world,
 
 void plotConsistency(const std::vector<TLevelResult>& levels, const std::string& file) {
     viz::CGnuplot plot(1000, 260 * static_cast<int>(levels.size()));
-    plot.script() << "set multiplot layout " << levels.size()
-                  << ",1\nset grid lc rgb '#dddddd'\nset border 3\nset tics nomirror\n"
-                     "set key at graph 0.99,0.42 horizontal\nset ylabel 'NEES of the pose'\n";
+    plot.script()
+        << "set multiplot layout " << levels.size()
+        << ",1\nset grid lc rgb '#dddddd'\nset border 3\nset tics nomirror\n"
+           "set key outside right center vertical samplen 2\nset ylabel 'NEES of the pose'\n";
     for (std::size_t i = 0; i < levels.size(); ++i) {
         const TLevelResult& level = levels[i];
         const std::string name = "level" + std::to_string(i);
