@@ -98,7 +98,8 @@ bool CMapping::measure(const TEvent& event,
             for (const auto& corner : m_corners.extract(lines).corners) addCorner(corner, step);
         } else if (const auto seen = std::dynamic_pointer_cast<CObservationSalientLandmarks>(o)) {
             for (const auto& patch : seen->landmarks) addPatch(patch, seen->cameraPose, step);
-            step.camera = cameraView(*seen);
+            step.camera =
+                cameraView(*seen, static_cast<std::size_t>(m_config.seeing.selection.maxEntities));
             isStep = true;  // that nothing was found is worth knowing too
         } else if (const auto ranges =
                        std::dynamic_pointer_cast<mrpt::obs::CObservationBearingRange>(o)) {

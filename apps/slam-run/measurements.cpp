@@ -77,13 +77,14 @@ std::optional<slam::TLaserView> laserView(const mrpt::obs::CObservation2DRangeSc
 }
 
 std::optional<slam::TCameraView> cameraView(
-    const observations::CObservationSalientLandmarks& record) {
+    const observations::CObservationSalientLandmarks& record, std::size_t mostPosters) {
     if (!(record.camera.fx() > 0) || record.camera.ncols == 0) return std::nullopt;
     const auto& T = record.cameraPose;
     const mrpt::math::TPoint3D ahead = T.composePoint({0, 0, 1});
     slam::TCameraView view;
     view.camera << T.x(), T.y(), std::atan2(ahead.y - T.y(), ahead.x - T.x());
     view.halfField = std::atan2(0.5 * record.camera.ncols, record.camera.fx());
+    view.mostPosters = mostPosters;
     return view;
 }
 

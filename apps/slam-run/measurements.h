@@ -23,8 +23,8 @@ void addMeasurement(const association::TMeasurement& measurement, slam::TStepInp
 /// What a scan saw; none where its geometry makes no sense.
 std::optional<slam::TLaserView> laserView(const mrpt::obs::CObservation2DRangeScan& scan);
 
-/// Where a picture looked; none without intrinsics.
+/// Where a picture looked; none without intrinsics. \param mostPosters Taken from it, at most.
 std::optional<slam::TCameraView> cameraView(
-    const observations::CObservationSalientLandmarks& record);
+    const observations::CObservationSalientLandmarks& record, std::size_t mostPosters);
 
 }  // namespace salma::apps

@@ -6,18 +6,19 @@
 #include <limits>
 
 #include "CChiSquareGate.h"
+#include "CHypothesisScore.h"
 
 namespace salma::association {
 
 template <int DIM>
 CBestFirst<DIM>::CBestFirst(const TAssociationOptions& options,
                             CGatedStep<DIM>& step,
-                            const std::vector<TMeasurementOf<DIM>>& measurements)
+                            const TAssociationProblemOf<DIM>& problem)
     : m_options(options),
       m_step(step),
       m_gate(chiSquareQuantile(options.gateQuantile, DIM)),
-      m_measurements(measurements),
-      m_scores(measurements.size()) {}
+      m_problem(problem),
+      m_scores(problem.measurements.size()) {}
 
 template <int DIM>
 void CBestFirst<DIM>::score() {
@@ -30,7 +31,9 @@ void CBestFirst<DIM>::score() {
             if (!test || !(test->distance2 <= m_gate) || !m_step.passesJointGate(*test)) continue;
             const double logRatio = std::isnan(pair.logRatio) ? 0 : pair.logRatio;
             const double score = test->logDensity + logRatio;
-            m_scores[i].push_back({&pair, score, score + 0.5 * test->distance2});
+            const double detected =
+                CHypothesisScore<DIM>::detectionGain(m_options, m_problem.landmarks[pair.landmark]);
+            m_scores[i].push_back({&pair, score + detected, score + 0.5 * test->distance2});
         }
     }
 }

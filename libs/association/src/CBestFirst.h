@@ -18,7 +18,7 @@ class CBestFirst {
  public:
     CBestFirst(const TAssociationOptions& options,
                CGatedStep<DIM>& step,
-               const std::vector<TMeasurementOf<DIM>>& measurements);
+               const TAssociationProblemOf<DIM>& problem);
 
     void run();
 
@@ -26,8 +26,9 @@ class CBestFirst {
     /// A pair that passes all gates, given the pairings made so far.
     struct TScored {
         const TPair* pair{nullptr};
-        double score{-std::numeric_limits<double>::infinity()};  //!< log LR + log density [nats]
-        /// The same for an innovation of zero: how sharply geometry predicts [nats].
+        /// log P_found - log(1 - P_D) + log LR + log density [nats].
+        double score{-std::numeric_limits<double>::infinity()};
+        /// log LR + log density of an innovation of zero: how sharply geometry predicts [nats].
         double peak{-std::numeric_limits<double>::infinity()};
     };
     /// What speaks for the best landmark of a measurement.
@@ -45,7 +46,7 @@ class CBestFirst {
     std::optional<EReason> objection(const TBest& candidate) const;
     /// Score of the explanation that a measurement shows a landmark which is not in the map.
     double otherScore(std::size_t observation) const {
-        return m_measurements[observation].kind == ELandmarkKind::corner
+        return m_problem.measurements[observation].kind == ELandmarkKind::corner
                    ? m_options.cornerLogDensity
                    : m_options.salientLogDensity;
     }
@@ -53,7 +54,7 @@ class CBestFirst {
     const TAssociationOptions& m_options;
     CGatedStep<DIM>& m_step;
     double m_gate;
-    const std::vector<TMeasurementOf<DIM>>& m_measurements;
+    const TAssociationProblemOf<DIM>& m_problem;
     std::vector<std::vector<TScored>> m_scores;
 };
 

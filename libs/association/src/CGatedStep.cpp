@@ -28,10 +28,17 @@ void check(const TAssociationProblemOf<DIM>& problem) {
         throw std::invalid_argument("Prediction covariance of " +
                                     std::to_string(problem.landmarks.size()) +
                                     " landmarks is not finite");
-    for (std::size_t i = 0; i < problem.landmarks.size(); ++i)
+    for (std::size_t i = 0; i < problem.landmarks.size(); ++i) {
         if (!problem.landmarks[i].z.allFinite())
             throw std::invalid_argument("Prediction of landmark " + std::to_string(i) +
                                         " is not finite");
+        const TDetectability detection = problem.landmarks[i].detection.value_or(TDetectability());
+        for (const double value : {detection.inView, detection.found})
+            if (!(value >= 0 && value <= 1))
+                throw std::invalid_argument("Detection probability of landmark " +
+                                            std::to_string(i) + " is " + std::to_string(value) +
+                                            ", not from 0 to 1");
+    }
 }
 
 }  // namespace

@@ -9,14 +9,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <stdexcept>
 
 #include "informationBlocks.h"
 
 namespace salma::association {
 namespace {
 
-constexpr double leastDetection = 1e-3;  // no landmark is surely missed or surely seen
+constexpr double leastDetection = 0.01;  // no landmark is surely missed or surely seen
 
 /// Smallest eigenvalue of a correlation matrix, or a little less.
 double leastEigenvalue(const Eigen::Matrix2d& m) { return 1 - std::abs(m(1, 0)); }
@@ -76,19 +75,19 @@ CHypothesisScore<DIM>::CHypothesisScore(const TAssociationOptions& options,
     : m_options(options), m_problem(problem), m_terms(branches.size()) {
     for (std::size_t k = 0; k < branches.size(); ++k)
         for (const TPair& pair : step.pairs(branches[k].observation))
-            if (pair.landmark == branches[k].landmark) m_terms[k].gain = gainOf(branches[k], pair);
+            if (pair.landmark == branches[k].landmark)
+                m_terms[k].gain = detectionGain(options, problem.landmarks[pair.landmark]) +
+                                  (std::isnan(pair.logRatio) ? 0 : pair.logRatio);
     setBounds(branches, step.identityPairings());
 }
 
 template <int DIM>
-double CHypothesisScore<DIM>::gainOf(const TBranch& branch, const TPair& pair) const {
-    const double visible = m_problem.visibility ? m_problem.visibility(branch.landmark) : 1;
-    if (!(visible >= 0 && visible <= 1))
-        throw std::invalid_argument("Visibility of landmark " + std::to_string(branch.landmark) +
-                                    " is " + std::to_string(visible) + ", not from 0 to 1");
-    const double detection =
-        std::clamp(visible * m_options.detectionProbability, leastDetection, 1 - leastDetection);
-    return std::log(detection / (1 - detection)) + (std::isnan(pair.logRatio) ? 0 : pair.logRatio);
+double CHypothesisScore<DIM>::detectionGain(const TAssociationOptions& options,
+                                            const TPredictedLandmarkOf<DIM>& landmark) {
+    TDetectability detection =
+        landmark.detection.value_or(TDetectability{1, options.detectionProbability});
+    detection.found = std::clamp(detection.found, leastDetection, 1 - leastDetection);
+    return std::log(detection.found) - std::log1p(-detection.probability());
 }
 
 template <int DIM>

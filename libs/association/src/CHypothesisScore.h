@@ -10,12 +10,12 @@ namespace salma::association {
 
 /** The terms of a hypothesis' score, and what they can become at best.
  *
- *   L = sum over pairings [ log P_D + log LR + log N(innovation | the other pairings before it) ]
+ *   L = sum over pairings [ log P_found + log LR + log N(innovation | the pairings before it) ]
  *     + sum over landmarks in view without measurement  log(1 - P_D)
  *     + sum over measurements without landmark  log lambda_new or log lambda_clutter.
  *
  * Unpaired landmarks count log(1 - P_D) in every hypothesis, so the score is kept relative to the
- * hypothesis without any pairing: a pairing gains log P_D - log(1 - P_D).
+ * hypothesis without any pairing: a pairing gains log P_found - log(1 - P_D).
  *
  * However many pairings a hypothesis has, it does not know a landmark better than from all other
  * landmarks that could be paired, each seen with the smallest noise of its measurements. What this
@@ -23,6 +23,11 @@ namespace salma::association {
 template <int DIM>
 class CHypothesisScore {
  public:
+    /// What pairing a landmark gains over leaving it without measurement:
+    /// log P_found - log(1 - P_D).
+    static double detectionGain(const TAssociationOptions& options,
+                                const TPredictedLandmarkOf<DIM>& landmark);
+
     /// \param branches Pairs of open measurements, sorted; all must be pairs of `step`.
     CHypothesisScore(const TAssociationOptions& options,
                      const TAssociationProblemOf<DIM>& problem,
@@ -50,7 +55,6 @@ class CHypothesisScore {
         double bound{0};
         std::optional<CWhitener<DIM>> floor, lowest;
     };
-    double gainOf(const TBranch& branch, const TPair& pair) const;
     void setBounds(const std::vector<TBranch>& branches, const std::vector<TBranch>& given);
 
     const TAssociationOptions& m_options;

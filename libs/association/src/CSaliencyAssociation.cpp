@@ -197,7 +197,7 @@ TAssociation CWeighing<DIM>::run() {
         pairTheSharp();
         settleTheRest();
     } else {
-        CBestFirst<DIM>(m_options, m_step, m_problem.measurements).run();
+        CBestFirst<DIM>(m_options, m_step, m_problem).run();
     }
     TAssociation result = m_step.finish({m_tree.nodes(), m_tree.tests(), m_complete});
     result.score = score + m_best.score;

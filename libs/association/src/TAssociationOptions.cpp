@@ -35,7 +35,9 @@ void TAssociationOptions::visit(config::COptionVisitor& v) {
     v.number("salient_clutter_log_density", salientClutterLogDensity, config::anyNumber(),
              "the same for salient landmarks (saliency)");
     v.number("detection_probability", detectionProbability, config::insideOf(0, 1),
-             "probability that a landmark in view is measured, 0.5 for no matter (saliency)");
+             "probability that a landmark in reach of a sensor without a stated view is measured, "
+             "0.5 for "
+             "no matter (saliency, rbpf)");
     v.integer(
         "search_limit", searchLimit, config::atLeast(1),
         "pairings judged before random starts (jcbb) or the surest first (saliency) take over");

@@ -38,7 +38,7 @@ Eigen::Index rowOf(std::size_t landmark) { return 3 + 2 * static_cast<Eigen::Ind
 }  // namespace
 
 CLocalMapSearch::CLocalMapSearch(const TRelocationOptions& options,
-                                 const TDetectionOptions& detection,
+                                 const CDetectionModel& detection,
                                  const TRelocationInput& input,
                                  TRatioCache& ratios)
     : m_options(options), m_detection(detection), m_input(input), m_ratios(ratios) {

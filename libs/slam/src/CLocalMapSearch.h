@@ -12,7 +12,7 @@ namespace salma::slam {
 class CLocalMapSearch {
  public:
     CLocalMapSearch(const TRelocationOptions& options,
-                    const TDetectionOptions& detection,
+                    const CDetectionModel& detection,
                     const TRelocationInput& input,
                     TRatioCache& ratios);
 
@@ -55,7 +55,7 @@ class CLocalMapSearch {
     bool sameAlignment(const TAlignment& a, const TAlignment& b) const;
 
     const TRelocationOptions& m_options;
-    const TDetectionOptions& m_detection;
+    const CDetectionModel& m_detection;
     const TRelocationInput& m_input;
     TRatioCache& m_ratios;
     TMarks m_local, m_left;

@@ -19,9 +19,7 @@ using association::ELandmarkKind;
 namespace {
 
 constexpr double farthestPoster = 10, farthestCorner = 5;  // that are looked for [m]
-constexpr double insideField = 0.85;  // share of the half field in which a poster is seen whole
-constexpr double glanceSlack = 0.3;   // a beam may end so much before what it should reach [m]
-constexpr int glancesAtCorner = 3;    // scans that should have shown a corner
+constexpr int glancesAtCorner = 3;                         // scans that should have shown a corner
 /* Corners of one wall stand and fall together, so each counts half: of log(0.75 * 16 / 1 m^2),
  * found within 0.1 m where one is found per square metre, and of log 0.25, not found. */
 constexpr double cornerFound = 1.2, cornerMissed = -0.7;
@@ -50,19 +48,10 @@ double CLocalMapSearch::missed(const TMark& mark,
     for (std::size_t k = fromStep; k < toStep; ++k) {
         const TPastStep& step = m_input.history[k];
         if (!step.camera || (step.pose.head<2>() - place).norm() > farthestPoster) continue;
-        const Eigen::Vector2d point = seenFrom(step.pose, place);
-        const Eigen::Vector2d ray = point - step.camera->camera.head<2>();
-        const double direction = std::atan2(ray.y(), ray.x());
-        const double offAxis = std::abs(mrpt::math::wrapToPi(direction - step.camera->camera[2]));
-        if (offAxis > insideField * step.camera->halfField) continue;
-        double incidence = 0;
-        if (!std::isnan(wall)) {
-            incidence = std::abs(mrpt::math::wrapToPi(direction + M_PI + step.pose[2] - wall));
-            if (incidence >= M_PI_2) continue;
-        }
-        const double open = step.laser ? step.laser->reaching(point, glanceSlack, 0.2) : 1;
-        if (open < 0.8) continue;
-        logMissed += std::log1p(-m_detection.probability(incidence, ray.norm()));
+        TBelievedPlace seen;
+        seen.point = seenFrom(step.pose, place);
+        seen.wallAngle = wall - step.pose[2];
+        logMissed += std::log1p(-m_detection.poster(step, seen).probability());
     }
     return std::max(logMissed, std::log(m_options.overlooked));
 }
@@ -111,8 +100,9 @@ bool CLocalMapSearch::cornerWasLookedAt(const Eigen::Vector2d& place,
         if ((step.pose.head<2>() - place).norm() > reach) continue;
         const Eigen::Vector2d point = seenFrom(step.pose, place);
         if (step.laser) {
-            if (!step.laser->looksAt(point) || step.laser->reaching(point, glanceSlack, 0.1) < 1)
-                continue;
+            TBelievedPlace seen;
+            seen.point = point;
+            if (!CDetectionModel::showsCornerForSure(step, seen)) continue;
         } else if (std::abs(std::atan2(point.y(), point.x())) > 0.9 * m_input.halfField) {
             continue;
         }

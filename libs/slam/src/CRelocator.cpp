@@ -20,7 +20,6 @@ std::size_t TAlignment::matchedPosters() const {
 CRelocator::CRelocator(const TRelocationOptions& options, const TDetectionOptions& detection)
     : m_options(options), m_detection(detection) {
     m_options.validate();
-    m_detection.validate();
 }
 
 TRelocation CRelocator::find(const TRelocationInput& input) {

@@ -29,12 +29,6 @@ landmarks::TTrackingOptions cornerTracking(const TEkfOptions& ekf) {
     return options;
 }
 
-/// Probability that a normally distributed value is below a limit.
-double probabilityBelow(double limit, double mean, double sigma) {
-    if (!(sigma > 0)) return mean <= limit ? 1 : 0;
-    return 0.5 * std::erfc((mean - limit) / (sigma * M_SQRT2));
-}
-
 }  // namespace
 
 CSalientEKF2D::CSalientEKF2D(const TEkfOptions& ekf,
@@ -51,6 +45,8 @@ CSalientEKF2D::CSalientEKF2D(const TEkfOptions& ekf,
       m_provisionalCorners(cornerTracking(ekf)),
       m_provisionalEntities(tracking, m_ratio),
       m_care(care),
+      m_detection(care.detection,
+                  {ekf.maxRange, ekf.fieldOfView / 2, association.detectionProbability}),
       m_relocates(care.relocation.use && ekf.update == EUpdate::block &&
                   association.method == association::EMethod::saliency),
       m_relocator(care.relocation, care.detection) {
@@ -141,7 +137,6 @@ TAssociationProblem CSalientEKF2D::problem() {
     result.measurements = m_now.input.measurements;
     result.predictionCovariance = predictionCovariance(mean, covariance);
     const double halfView = m_ekf.fieldOfView / 2;
-    std::vector<double> visibilities;
     for (std::size_t k = 0; k < m_landmarks.size(); ++k) {
         association::TPredictedLandmark expected = m_landmarks.expected(k, heading());
         const auto row = static_cast<Eigen::Index>(2 * k);
@@ -154,13 +149,9 @@ TAssociationProblem CSalientEKF2D::problem() {
         expected.visible = !(m_relocates && sigma > m_care.relocation.unsure) &&
                            expected.z[0] <= m_ekf.maxRange + slack[0] &&
                            std::abs(expected.z[1]) <= halfView + slack[1];
-        visibilities.push_back(
-            probabilityBelow(m_ekf.maxRange, expected.z[0], slack[0] / 3) *
-            (halfView < M_PI ? probabilityBelow(halfView, std::abs(expected.z[1]), slack[1] / 3)
-                             : 1));
         result.landmarks.push_back(expected);
     }
-    result.visibility = [visibilities](std::size_t landmark) { return visibilities[landmark]; };
+    m_detection.state(m_now.input, result);
     if (m_ratio) {
         m_now.evidence = std::make_unique<CStepEvidence>(m_evidenceLimits, m_landmarks, m_ratio,
                                                          result, m_now.input.time);

@@ -32,9 +32,7 @@ void CSalientEKF2D::remember() {
         input.increment.mean.phi();
     step.Q = input.increment.cov.asEigen();
     step.pose = poseMean();
-    step.laser = input.laser;
-    step.scanned = input.scanned;
-    step.camera = input.camera;
+    static_cast<TViews&>(step) = input;
     for (std::size_t i = 0; i < input.measurements.size(); ++i) {
         const EDecision decision = m_now.decisions[i];
         if (decision != EDecision::paired && decision != EDecision::created) continue;

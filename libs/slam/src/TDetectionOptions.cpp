@@ -39,17 +39,26 @@ void TDetectionOptions::visit(config::COptionVisitor& v) {
               "probability at each that a poster in view is found");
     v.numbers("range_knots_m", range, config::atLeast(0), "ascending distances, each");
     v.numbers("by_range", byRange, config::between(0, 1), "factor at each");
+    v.numbers("corner_range_knots_m", cornerRange, config::atLeast(0),
+              "ascending distances of corners, each");
+    v.numbers("by_corner_range", byCornerRange, config::between(0, 1),
+              "probability at each that a corner in view is found");
 }
 
 void TDetectionOptions::validate() const {
     checkRanges();
     checkTable("by_incidence", incidence, byIncidence);
     checkTable("by_range", range, byRange);
+    checkTable("by_corner_range", cornerRange, byCornerRange);
 }
 
 double TDetectionOptions::probability(double angle, double distance) const {
     return interpolated(incidence, byIncidence, std::abs(angle) * 180 / M_PI) *
            interpolated(range, byRange, distance);
+}
+
+double TDetectionOptions::cornerProbability(double distance) const {
+    return interpolated(cornerRange, byCornerRange, distance);
 }
 
 }  // namespace salma::slam

@@ -16,10 +16,9 @@ struct TBeamPlace {
 
 TBeamPlace placeOf(const TLaserView& view, const Eigen::Vector2d& point) {
     const Eigen::Vector2d ray = point - view.sensor.head<2>();
-    const double middle = view.first + 0.5 * view.spacing * (double(view.free->size()) - 1);
     // Counted from the middle of the field, so that the wrap lies behind the scanner.
     const double bearing =
-        mrpt::math::wrapToPi(std::atan2(ray.y(), ray.x()) - view.sensor[2] - middle);
+        mrpt::math::wrapToPi(std::atan2(ray.y(), ray.x()) - view.sensor[2] - view.middle());
     return {ray.norm(), bearing / view.spacing + 0.5 * (double(view.free->size()) - 1)};
 }
 

@@ -151,10 +151,11 @@ double CExhaustiveSearch<DIM>::score(const TAssociationOptions& options) {
     for (std::size_t i = 0; i < m_now.size(); ++i) {
         const bool corner = m_problem.measurements[i].kind == ELandmarkKind::corner;
         if (m_now[i] >= 0) {
-            const double seen = options.detectionProbability *
-                                m_problem.visibility(static_cast<std::size_t>(m_now[i]));
+            const auto& stated = m_problem.landmarks[static_cast<std::size_t>(m_now[i])].detection;
+            const double found = stated ? stated->found : options.detectionProbability;
+            const double seen = stated ? stated->inView * stated->found : found;
             const double ratio = m_ratios[{i, m_now[i]}];
-            score += std::log(seen / (1 - seen)) + (std::isnan(ratio) ? 0 : ratio);
+            score += std::log(found / (1 - seen)) + (std::isnan(ratio) ? 0 : ratio);
             continue;
         }
         const double clutter =

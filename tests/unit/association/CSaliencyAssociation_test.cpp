@@ -14,22 +14,22 @@
 namespace salma::association {
 namespace {
 
-/// The problem with some appearance, and partly at the border of the view.
+/// The problem with some appearance, and landmarks that are seen more or less easily.
 template <int DIM>
 TAssociationProblemOf<DIM> described(TAssociationProblemOf<DIM> problem, std::mt19937& random) {
     std::uniform_real_distribution<double> ratio(-4, 4);
-    std::uniform_real_distribution<double> visibility(0.2, 1);
+    std::uniform_real_distribution<double> detection(0.02, 0.98);
     // Those that show each other have equal indices.
     const std::size_t salient = random() % 5;
     for (std::size_t i = 0; i < problem.measurements.size() && i < salient; ++i)
         problem.measurements[i].kind = ELandmarkKind::salient;
     for (std::size_t j = 0; j < problem.landmarks.size() && j < salient; ++j)
         problem.landmarks[j].kind = ELandmarkKind::salient;
-    std::vector<double> ratios(36), visibilities(6);
+    std::vector<double> ratios(36);
     for (double& value : ratios) value = random() % 4 == 0 ? std::nan("") : ratio(random);
-    for (double& value : visibilities) value = visibility(random);
+    for (auto& landmark : problem.landmarks)
+        if (random() % 4 != 0) landmark.detection = {detection(random), detection(random)};
     problem.logRatio = [ratios](std::size_t i, std::size_t j) { return ratios[6 * i + j]; };
-    problem.visibility = [visibilities](std::size_t j) { return visibilities[j]; };
     return problem;
 }
 
@@ -105,19 +105,31 @@ TEST(CSaliencyAssociation, FindsTheHypothesisAndTheDoubtsOfExhaustiveSearchInSpa
 
 TEST(CSaliencyAssociation, PrefersLandmarksThatAreInView) {
     auto problem = test::problem({test::seen(2, 0)}, {{1.95, 0}, {2.05, 0}});
-    problem.visibility = [](std::size_t landmark) { return landmark == 0 ? 0. : 1.; };
     TAssociationOptions options;
-    options.detectionProbability = 0.9;
+    options.detectionProbability = 0.97;
+    problem.landmarks[0].detection = {0, 0.97};
     EXPECT_EQ(CSaliencyAssociation(options).associate(problem).decisions[0].landmark, 1);
-    problem.visibility = nullptr;
+    options.searchLimit = 1;  // the surest first
+    options.cornerLogDensity = -10;
+    EXPECT_EQ(CSaliencyAssociation(options).associate(problem).decisions[0].landmark, 1);
+    // What is hard to find says little by not being found.
+    options.searchLimit = 1000;
+    for (auto& landmark : problem.landmarks) landmark.detection = {1, 0.3};
+    problem.landmarks[0].detection->inView = 0;
+    EXPECT_EQ(CSaliencyAssociation(options).associate(problem).decisions[0].reason,
+              EReason::ambiguous);
+    problem.landmarks[1].detection.reset();
+    problem.landmarks[0].detection.reset();
     EXPECT_EQ(CSaliencyAssociation(options).associate(problem).decisions[0].reason,
               EReason::ambiguous);
 }
 
-TEST(CSaliencyAssociation, RefusesAVisibilityThatIsNoProbability) {
+TEST(CSaliencyAssociation, RefusesADetectionThatIsNoProbability) {
     for (const double bad : {-0.1, 1.1, std::numeric_limits<double>::quiet_NaN()}) {
         auto problem = test::problem({test::seen(2, 0)}, {{2, 0}});
-        problem.visibility = [bad](std::size_t) { return bad; };
+        problem.landmarks[0].detection = {bad, 0.5};
+        EXPECT_THROW(CSaliencyAssociation().associate(problem), std::invalid_argument);
+        problem.landmarks[0].detection = {0.5, bad};
         EXPECT_THROW(CSaliencyAssociation().associate(problem), std::invalid_argument);
     }
 }

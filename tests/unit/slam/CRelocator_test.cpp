@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <salma/slam/CRelocator.h>
 
+#include <cmath>
 #include <memory>
 
 namespace salma::slam {
@@ -16,12 +17,15 @@ double ratio(const observations::TPatch& a, const observations::TPatch& b) {
 /// Two pictures on one wall, driven past in the places that are named, one after the other.
 class CTwoPictures {
  public:
-    void passAt(double y, bool local) {
+    /// \param views Where the sensors looked then. \param third One more picture between both.
+    void passAt(double y, bool local, const TViews& views = {}, bool third = false) {
         TPastStep step;
+        static_cast<TViews&>(step) = views;
         step.increment = {m_history.empty() ? 0.0 : 40.0, 0, 0};
         step.Q.diagonal() << kDrift * kDrift, kDrift * kDrift, 0.01;
         step.pose = {10, y, 0};
         for (const double side : {-1.0, 1.0}) see({10 + side, y + 1}, 1.5 + side, local, step);
+        if (third) see({10, y + 1}, 1.5, local, step);
         m_history.add(step);
         m_pose = step.pose;
     }
@@ -92,6 +96,31 @@ TEST(CRelocator, DoesNotChooseBetweenTwoPlacesAlike) {
     EXPECT_LT(doubtful.margin, options.margin);
     options.margin = 0;
     EXPECT_EQ(world.relocated(options).outcome, ERelocation::found) << "nothing else is in the way";
+}
+
+TEST(CRelocator, CountsThePictureThatShouldHaveBeenSeenUnlessSomethingHidesIt) {
+    const auto scored = [](const TViews& views) {
+        CTwoPictures world;
+        world.passAt(0, false, {}, true);
+        world.passAt(8, true, views);
+        const TRelocation found = world.relocated();
+        EXPECT_EQ(found.best.matchedPosters(), 2u);
+        return found.best.posters;
+    };
+    TViews views;
+    const double nobodyLooked = scored(views);
+    views.camera = TCameraView{{0, 0, M_PI_2}, 1.2};
+    // 1 m straight ahead; the tables say how often that is found.
+    const double missed = std::log1p(-TDetectionOptions().probability(0, 1));
+    EXPECT_NEAR(scored(views) - nobodyLooked, missed, 1e-6);
+    views.laser.emplace();
+    views.laser->sensor[2] = M_PI_2;
+    views.laser->first = -M_PI_2;
+    views.laser->spacing = M_PI / 180;
+    views.laser->free = std::make_shared<std::vector<float>>(181, 0.2F);
+    EXPECT_EQ(scored(views), nobodyLooked);
+    views.laser->free = std::make_shared<std::vector<float>>(181, 5.0F);
+    EXPECT_NEAR(scored(views) - nobodyLooked, missed, 1e-6);
 }
 
 TEST(CRelocator, AsksForTheScore) {

@@ -261,5 +261,61 @@ TEST(CSalientEKF2D, RefusesAStepThatIsNotSound) {
     EXPECT_THROW(filter.process(input), std::invalid_argument);
 }
 
+/// Two posters 1 m apart on the wall ahead, then a robot that has slid sideways, nobody knows how
+/// far, and sees one poster just between them. Beams end early from `from` to `to` [deg]; posters
+/// in view are found with a probability.
+EDecision decisionBetweenTwoPosters(double from, double to, double found, int& landmark) {
+    const auto poster = [](double bearing) {
+        association::TMeasurement m;
+        m.kind = association::ELandmarkKind::salient;
+        m.z = {std::hypot(3, 3 * std::tan(bearing)), bearing};
+        m.R = Eigen::Vector2d(1e-4, 1e-4).asDiagonal();
+        m.wallAngle = M_PI;
+        m.wallAngleSigma = 0.02;
+        return m;
+    };
+    const double side = std::atan2(0.5, 3);
+    association::TAssociationOptions association;
+    association.margin = 1;
+    TMapCare care;
+    care.detection.incidence = care.detection.range = {0};
+    care.detection.byIncidence = {found};
+    care.detection.byRange = {1};
+    CSalientEKF2D filter(immediateCorners(), association, nullptr, CSalientEKF2D::atFirstSight(),
+                         care);
+    TStepInput input = step(0, 0);
+    input.camera = TCameraView{{0, 0, 0}, 0.8};
+    input.measurements = {poster(side), poster(-side)};
+    filter.process(input);
+    input = step(1, 0);
+    input.increment.cov(1, 1) = 0.4 * 0.4;
+    input.camera = TCameraView{{0, 0, 0}, 0.8};
+    input.measurements = {poster(0)};
+    input.laser.emplace();
+    input.laser->first = -M_PI / 2;
+    input.laser->spacing = M_PI / 180;
+    auto free = std::make_shared<std::vector<float>>(181, 8.0F);
+    for (int i = 0; i <= 180; ++i)
+        if (i - 90 >= from && i - 90 <= to) (*free)[static_cast<std::size_t>(i)] = 1;
+    input.laser->free = free;
+    filter.process(input);
+    TRunRecord record;
+    filter.results(record);
+    landmark = record.associations.back().landmark;
+    return record.associations.back().decision;
+}
+
+TEST(CSalientEKF2D, PairsTheOneOfTwoPostersThatNothingHides) {
+    int landmark = -1;
+    EXPECT_EQ(decisionBetweenTwoPosters(0, -1, 0.95, landmark), EDecision::deferred);
+    EXPECT_EQ(decisionBetweenTwoPosters(-1, 40, 0.95, landmark), EDecision::paired);
+    EXPECT_EQ(landmark, 1) << "which should be seen, and would be missing";
+    EXPECT_EQ(decisionBetweenTwoPosters(-40, 1, 0.95, landmark), EDecision::paired);
+    EXPECT_EQ(landmark, 0);
+    // Where both are hidden neither would be missing, nor where posters are mostly overlooked.
+    EXPECT_EQ(decisionBetweenTwoPosters(-40, 40, 0.95, landmark), EDecision::deferred);
+    EXPECT_EQ(decisionBetweenTwoPosters(-1, 40, 0.2, landmark), EDecision::deferred);
+}
+
 }  // namespace
 }  // namespace salma::slam

@@ -26,7 +26,7 @@ struct TAssociationOptions : public config::TStrictOptions<TAssociationOptions> 
     /// one.
     double cornerClutterLogDensity{-6};
     double salientClutterLogDensity{-11};
-    double detectionProbability{0.5};  //!< That a landmark in view is measured.
+    double detectionProbability{0.5};  //!< Of landmarks of which the problem states none.
     int searchLimit{50000};            //!< Tests of joint compatibility in one search.
     int seed{1};                       //!< Of the random starts after that.
     int maxMeasurements{200};          //!< Of a step; those farther away are deferred.

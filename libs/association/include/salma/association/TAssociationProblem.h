@@ -12,6 +12,14 @@
 
 namespace salma::association {
 
+/// How likely a step's sensors measure a landmark, if it is there.
+struct TDetectability {
+    double inView{1};   //!< Probability that it is in view and not hidden, as far as is known.
+    double found{0.5};  //!< Probability that it is measured if it is in view.
+
+    double probability() const { return inView * found; }
+};
+
 /// What the map expects to see of a landmark, in the robot frame at the step's time.
 template <int DIM>
 struct TPredictedLandmarkOf {
@@ -23,6 +31,7 @@ struct TPredictedLandmarkOf {
     double wallAngle{std::numeric_limits<double>::quiet_NaN()};
     double wallAngleSigma{0};  //!< With the uncertainty of the robot's heading [rad].
     bool convex{false};        //!< Of a corner: points towards the robot.
+    std::optional<TDetectability> detection;  //!< Nothing: in view, found as the options say.
 };
 
 /// Measurements of one step against the landmarks of the map.
@@ -36,9 +45,6 @@ struct TAssociationProblemOf {
     /// at most once per pair, only for pairs of salient landmarks that geometry allows; NaN means
     /// "cannot tell". Null: appearance is not used.
     std::function<double(std::size_t observation, std::size_t landmark)> logRatio;
-    /// Probability from 0 to 1 that a landmark is inside the view of this step's sensors and not
-    /// hidden. Null: 1 for all.
-    std::function<double(std::size_t landmark)> visibility;
 };
 
 using TPredictedLandmark = TPredictedLandmarkOf<2>;

@@ -18,16 +18,13 @@ struct TUsedMeasurement {
 };
 
 /// What a step brought, and where the robot was then as is believed now.
-struct TPastStep {
+struct TPastStep : TViews {
     double time{0};                              //!< [s since 1970]
     Eigen::Vector3d increment{0, 0, 0};          //!< (x, y, turn) in the frame of the step before.
     Eigen::Matrix3d Q{Eigen::Matrix3d::Zero()};  //!< Its covariance [m, rad].
     std::vector<TUsedMeasurement> used;
-    std::optional<TLaserView> laser;
-    bool scanned{false};                //!< Corners were looked for.
-    std::optional<TCameraView> camera;  //!< None: no picture was looked at.
-    Eigen::Vector3d pose{0, 0, 0};      //!< (x, y, heading), world [m, rad].
-    double travel{0};                   //!< Along the path from the start [m].
+    Eigen::Vector3d pose{0, 0, 0};  //!< (x, y, heading), world [m, rad].
+    double travel{0};               //!< Along the path from the start [m].
 };
 
 /** All steps of a run: what the map was made of, so that it can be made anew.

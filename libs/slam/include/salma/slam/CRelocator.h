@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <salma/slam/CDetectionModel.h>
 #include <salma/slam/CLandmarkTable.h>
 #include <salma/slam/CPathHistory.h>
-#include <salma/slam/TDetectionOptions.h>
 #include <salma/slam/TRelocationOptions.h>
 #include <salma/slam/blockFilter.h>
 
@@ -90,7 +90,7 @@ class CRelocator {
 
  private:
     TRelocationOptions m_options;
-    TDetectionOptions m_detection;
+    CDetectionModel m_detection;
     TRatioCache m_ratios;
 };
 

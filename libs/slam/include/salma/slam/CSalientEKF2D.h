@@ -119,6 +119,7 @@ class CSalientEKF2D : public mrpt::slam::CRangeBearingKFSLAM2D, public CSlamBack
     landmarks::CWideBaselineTracker m_provisionalCorners, m_provisionalEntities;
     association::TDropCounts m_dropped;
     TMapCare m_care;
+    CDetectionModel m_detection;
     /// Methods that never defer, and MRPT's step, which has one covariance for all measurements,
     /// stay as they are.
     bool m_relocates;

@@ -30,16 +30,13 @@ struct TSpatialStep {
 };
 
 /// All that happened between the step before and this one.
-struct TStepInput {
+struct TStepInput : TViews {
     double time{0};                           //!< [s since 1970]
     mrpt::poses::CPosePDFGaussian increment;  //!< Motion since the step before, robot frame.
     mrpt::poses::CPose2D odometry;            //!< T_o_r by odometry alone, for the record.
     std::vector<association::TMeasurement> measurements;
     std::vector<TSpot> spots;             //!< One per measurement, or none at all.
     std::optional<TSpatialStep> spatial;  //!< Only for filters in space.
-    std::optional<TLaserView> laser;      //!< The last scan, if it is recent.
-    bool scanned{false};                  //!< It belongs to this step: corners were looked for.
-    std::optional<TCameraView> camera;    //!< Posters were looked for there.
 };
 
 /// A way to make a trajectory and a map of measurements.

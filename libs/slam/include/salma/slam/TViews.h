@@ -2,7 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace salma::slam {
@@ -24,6 +27,11 @@ struct TLaserView {
 
     /// True if the point, robot frame [m], lies in the scanner's field.
     bool looksAt(const Eigen::Vector2d& point) const;
+
+    /// Of the field, from the sensor's yaw; with `free` only [rad].
+    double middle() const { return first + 0.5 * spacing * (double(free->size()) - 1); }
+    /// From there to the outer border of the outermost beams; with `free` only [rad].
+    double halfField() const { return 0.5 * spacing * double(free->size()); }
 };
 
 /// Where a camera looked.
@@ -31,6 +39,14 @@ struct TCameraView {
     Eigen::Vector3d camera{0, 0,
                            0};  //!< (x, y, direction of its axis) in the robot frame [m, rad].
     double halfField{0};        //!< From its axis to the border of the picture [rad].
+    std::size_t mostPosters{std::numeric_limits<std::size_t>::max()};  //!< Taken from a picture.
+};
+
+/// Where a step's sensors looked.
+struct TViews {
+    std::optional<TLaserView> laser;    //!< The last scan, if it is recent.
+    bool scanned{false};                //!< It belongs to this step: corners were looked for.
+    std::optional<TCameraView> camera;  //!< Posters were looked for there. None: no picture.
 };
 
 }  // namespace salma::slam
