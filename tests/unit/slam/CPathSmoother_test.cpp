@@ -4,7 +4,9 @@
 #include <salma/slam/rangeBearingModel.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
 #include <stdexcept>
 
@@ -92,6 +94,46 @@ TEST(CPathSmoother, FindsTheSameFromABentStart) {
     EXPECT_NEAR(again.cost, straight.cost, 1e-2);
     EXPECT_LT((again.mean - straight.mean).cwiseAbs().maxCoeff(), 2e-3);
     EXPECT_GT(again.iterations, 2);
+}
+
+/// Mean squared residuals by id, after what was seen of `gone` is taken for `kept`.
+std::map<int, double> misfitsOfJoined(TExample e, int gone, int kept) {
+    e.history.rename(gone, kept);
+    const auto at = std::find(e.ids.begin(), e.ids.end(), gone) - e.ids.begin();
+    e.ids.erase(e.ids.begin() + at);
+    e.places.erase(e.places.begin() + at);
+    const TSmoothed smoothed = CPathSmoother().smooth(e.history, e.ids, e.places);
+    std::map<int, double> result;
+    for (std::size_t i = 0; i < e.ids.size(); ++i) result[e.ids[i]] = smoothed.misfit[i];
+    return result;
+}
+
+/// The second half of a landmark's sightings gets a name of its own.
+TExample withTornLandmark(int id, int fresh) {
+    TExample e = example(40);
+    const TExample whole = e;
+    e.history = {};
+    for (std::size_t k = 0; k < whole.history.size(); ++k) {
+        TPastStep step = whole.history[k];
+        for (auto& used : step.used)
+            if (used.landmark == id && k >= 3) used.landmark = fresh;
+        e.history.add(step);
+    }
+    const auto at = std::find(e.ids.begin(), e.ids.end(), id) - e.ids.begin();
+    e.ids.push_back(fresh);
+    e.places.push_back(e.places[static_cast<std::size_t>(at)]);
+    return e;
+}
+
+TEST(CPathSmoother, TellsByTheMisfitWhetherTwoJoinedLandmarksAreOne) {
+    const int kept = example(1).ids.front(), fresh = 1000;
+    const auto right = misfitsOfJoined(withTornLandmark(kept, fresh), fresh, kept);
+    for (const auto& [id, misfit] : right) EXPECT_LT(misfit, 3) << id << ": of 1 expected";
+    const TExample e = example(40);
+    const int other = *std::find_if(e.ids.begin(), e.ids.end(), [&](int id) {
+        return e.history.stepsOf(id)->second > 10 && id != kept;
+    });
+    EXPECT_GT(misfitsOfJoined(e, other, kept)[kept], 4) << "what a join of maps is refused for";
 }
 
 TEST(CPathSmoother, GivesASymmetricPositiveCovariance) {
