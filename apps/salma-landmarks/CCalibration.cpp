@@ -147,6 +147,7 @@ void CCalibration::learn(TCalibration& calibration) const {
         set.runs, set.pairs, [&](const TLabelledPair& pair) { return std::exp(logRatio(pair)); });
     calibration.decorrelated = decorrelation(set.runs, set.pairs, logRatio, m_options);
     calibration.detected = detection(set.runs);
+    calibration.detection = learnDetection(set.runs, m_config.detection, m_options);
 
     calibration.matcher = m_config.matcher;
     calibration.matcher.scoreKnots = calibration.both.scoreKnots;
@@ -166,6 +167,11 @@ void CCalibration::judge(const TCalibration& calibration, TRunSet& set) const {
     set.learned = reliability(judged(set, true, learned));
     set.configured = reliability(
         judged(set, true, [](const TLabelledPair& pair) { return pair.configuredRatio; }));
+    const auto lossOf = [&](association::ELandmarkKind kind) {
+        return detectionLoss(set.runs, kind, calibration.detection, m_config.detection);
+    };
+    set.posterDetection = lossOf(association::ELandmarkKind::salient);
+    set.cornerDetection = lossOf(association::ELandmarkKind::corner);
     set.areaWithoutDuplicates = reliability(judged(set, false, learned)).areaUnderCurve.value;
 }
 

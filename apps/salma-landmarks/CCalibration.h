@@ -8,6 +8,7 @@
 #include "TCalibrationOptions.h"
 #include "decorrelation.h"
 #include "detection.h"
+#include "detectionTables.h"
 #include "duplicateRate.h"
 #include "labelledPairs.h"
 #include "labelledRun.h"
@@ -31,6 +32,7 @@ struct TRunSet {
     TReliability learned;             //!< By the learned tables; duplicates are others.
     TReliability configured;          //!< By the tables of the configuration.
     double areaWithoutDuplicates{0};  //!< Under the curve, by the learned tables.
+    TDetectionLoss posterDetection, cornerDetection;
 };
 
 struct TCalibration {
@@ -41,6 +43,7 @@ struct TCalibration {
     TDuplicateRate duplicates;
     TDecorrelation decorrelated;
     std::vector<TDetectionCell> detected;  //!< In the learning runs.
+    slam::TDetectionOptions detection;     //!< The configured knots with the learned values.
     appearance::TMatcherOptions matcher;   //!< The configured ones with the learned tables.
     std::vector<std::string> notices;
 };

@@ -85,6 +85,8 @@ std::string calibrationIni(const TCalibration& c) {
         ekf.decorrelation = *c.decorrelated.angle;
         text += "\n[ekf]\n" + linesOf(ekf.asIni("ekf"), {"decorrelation_deg"});
     }
+    auto detection = c.detection;
+    text += "\n" + detection.asIni("detection");
     return text;
 }
 

@@ -43,6 +43,14 @@ void writeSet(std::ostream& out, const std::string& name, const TRunSet& set) {
     line("area under the curve", set.learned.areaUnderCurve, set.configured.areaUnderCurve);
     line("log loss [nat]", set.learned.logLoss, set.configured.logLoss);
     line("calibration error", set.learned.calibrationError, set.configured.calibrationError);
+    const auto detectionLine = [&](const std::string& title, const TDetectionLoss& loss) {
+        if (loss.views == 0) return;
+        out << "  " << std::left << std::setw(26) << title << std::fixed << std::setprecision(4)
+            << std::setw(30) << loss.learned << loss.configured << "  (" << loss.found << " of "
+            << loss.views << " found)\n";
+    };
+    detectionLine("posters in view, log loss", set.posterDetection);
+    detectionLine("corners in view, log loss", set.cornerDetection);
     out << "  area without duplicates   " << std::fixed << std::setprecision(5)
         << set.areaWithoutDuplicates << "\n\n";
 }
@@ -55,6 +63,12 @@ ordered_json asJson(const TReliability& r) {
     return {{"area_under_curve", asJson(r.areaUnderCurve)},
             {"log_loss", asJson(r.logLoss)},
             {"calibration_error", asJson(r.calibrationError)}};
+}
+
+ordered_json asJson(const TDetectionLoss& loss) {
+    return {{"views", loss.views},
+            {"found", loss.found},
+            {"log_loss", {{"learned", loss.learned}, {"configured", loss.configured}}}};
 }
 
 ordered_json asJson(const TRunSet& set) {
@@ -72,6 +86,8 @@ ordered_json asJson(const TRunSet& set) {
     json["learned"] = asJson(set.learned);
     json["configured"] = asJson(set.configured);
     json["area_without_duplicates"] = set.areaWithoutDuplicates;
+    json["detection"] = {{"posters", asJson(set.posterDetection)},
+                         {"corners", asJson(set.cornerDetection)}};
     return json;
 }
 

@@ -22,6 +22,7 @@ std::vector<TDetectionCell> detection(const std::vector<TLabelledRun>& runs) {
             std::size_t total = 0, count = 0;
             for (const auto& run : runs)
                 for (const auto& view : run.views) {
+                    if (view.kind != association::ELandmarkKind::salient) continue;
                     if (view.incidence < cell.incidenceFrom || view.incidence >= cell.incidenceTo ||
                         view.range < cell.rangeFrom || view.range >= cell.rangeTo)
                         continue;

@@ -5,6 +5,9 @@
 #include <measurements.h>
 #include <mrpt/math/wrap2pi.h>
 #include <salma/appearance/TPolarMeasurement.h>
+#include <salma/laser/CCornerExtractor.h>
+#include <salma/laser/CLineExtractor.h>
+#include <salma/slam/CDetectionModel.h>
 #include <salma/viz/CTrajectoryScore.h>
 
 #include <algorithm>
@@ -36,23 +39,42 @@ class CLabelling {
  public:
     CLabelling(const TTruth& truth, TLabelledRun& run)
         : m_truth(truth), m_matcher({}, truth), m_run(run) {
-        for (const auto& landmark : truth.landmarks)
-            if (landmark.kind == ELandmarkKind::salient) m_posters[landmark.id] = &landmark;
+        for (const auto& landmark : truth.landmarks) m_landmarks[landmark.id] = &landmark;
     }
 
-    std::size_t posters() const { return m_posters.size(); }
+    std::ptrdiff_t posters() const {
+        return std::count_if(m_landmarks.begin(), m_landmarks.end(), [](const auto& entry) {
+            return entry.second->kind == ELandmarkKind::salient;
+        });
+    }
 
     void add(const CObservationSalientLandmarks& record) {
         const double time = mrpt::Clock::toDouble(record.timestamp);
         ++m_run.pictures;
         std::set<int> found;
         for (const auto& patch : record.landmarks) found.insert(name(patch, time));
-        constexpr double kSkew = 0.001;  // as CTruthMatcher has it
-        const auto first = std::lower_bound(
-            m_truth.sightings.begin(), m_truth.sightings.end(), time - kSkew,
-            [](const auto& sighting, double earliest) { return sighting.time < earliest; });
-        for (auto s = first; s != m_truth.sightings.end() && s->time <= time + kSkew; ++s)
-            if (s->kind == ELandmarkKind::salient) addView(*s, found.count(s->landmark) != 0);
+        slam::TViews views;
+        views.camera = cameraView(record, record.landmarks.size());
+        addViews(time, ELandmarkKind::salient, views, found);
+    }
+
+    /// \param corners That were found in it, in the robot frame.
+    void add(const mrpt::obs::CObservation2DRangeScan& scan,
+             const std::vector<laser::TCorner>& corners) {
+        const double time = mrpt::Clock::toDouble(scan.timestamp);
+        std::set<int> found;
+        for (const auto& corner : corners) {
+            slam::TAssociationRow row;
+            row.time = time;
+            row.kind = ELandmarkKind::corner;
+            row.range = std::hypot(corner.position.x, corner.position.y);
+            row.bearing = std::atan2(corner.position.y, corner.position.x);
+            found.insert(m_matcher.match(row));
+        }
+        slam::TViews views;
+        views.laser = laserView(scan);
+        views.scanned = true;
+        addViews(time, ELandmarkKind::corner, views, found);
     }
 
  private:
@@ -73,26 +95,60 @@ class CLabelling {
             return poster;
         }
         const double angle = mrpt::math::wrapToPi(polar.z[1] + M_PI - polar.wallAngle);
-        m_run.seen.push_back({time, poster, m_posters.at(poster)->texture, angle, patch});
+        m_run.seen.push_back({time, poster, m_landmarks.at(poster)->texture, angle, patch});
         return poster;
     }
 
-    void addView(const TTrueSighting& sighting, bool seen) {
+    void addViews(double time,
+                  ELandmarkKind kind,
+                  const slam::TViews& views,
+                  const std::set<int>& found) {
+        constexpr double kSkew = 0.001;  // as CTruthMatcher has it
         constexpr double kMaxGap = 0.5;  // [s]
         mrpt::poses::CPose2D T_w_r;
-        if (!viz::interpolate(*m_truth.path, sighting.time, kMaxGap, T_w_r)) return;
-        const TTrueLandmark& poster = *m_posters.at(sighting.landmark);
-        const double towards =
-            std::atan2(T_w_r.y() - poster.position.y, T_w_r.x() - poster.position.x);
-        m_run.views.push_back(
-            {std::abs(mrpt::math::wrapToPi(towards - poster.yaw)),
-             std::hypot(T_w_r.x() - poster.position.x, T_w_r.y() - poster.position.y), seen});
+        if (!viz::interpolate(*m_truth.path, time, kMaxGap, T_w_r)) return;
+        const auto first = std::lower_bound(
+            m_truth.sightings.begin(), m_truth.sightings.end(), time - kSkew,
+            [](const auto& sighting, double earliest) { return sighting.time < earliest; });
+        for (auto s = first; s != m_truth.sightings.end() && s->time <= time + kSkew; ++s)
+            if (s->kind == kind)
+                addView(*m_landmarks.at(s->landmark), T_w_r, views, found.count(s->landmark) != 0);
+    }
+
+    void addView(const TTrueLandmark& landmark,
+                 const mrpt::poses::CPose2D& T_w_r,
+                 const slam::TViews& views,
+                 bool seen) {
+        const auto inRobot =
+            (mrpt::poses::CPose2D(landmark.position.x, landmark.position.y, 0) - T_w_r);
+        slam::TBelievedPlace place;
+        place.point << inRobot.x(), inRobot.y();
+        TTrueView view;
+        view.kind = landmark.kind;
+        view.seen = seen;
+        Eigen::Vector2d from(0, 0);
+        if (landmark.kind == ELandmarkKind::salient) {
+            if (views.camera) from = views.camera->camera.head<2>();
+            place.wallAngle = landmark.yaw - T_w_r.phi();
+            const Eigen::Vector2d back = from - place.point;
+            view.thing = landmark.texture;
+            view.incidence =
+                std::abs(mrpt::math::wrapToPi(std::atan2(back.y(), back.x()) - place.wallAngle));
+            if (views.camera) view.inView = slam::CDetectionModel::posterInView(views, place);
+        } else {
+            if (!views.laser) return;
+            from = views.laser->sensor.head<2>();
+            view.thing = m_truth.name + " " + std::to_string(landmark.id);
+            view.inView = slam::CDetectionModel::cornerInView(views, place);
+        }
+        view.range = (place.point - from).norm();
+        m_run.views.push_back(view);
     }
 
     const TTruth& m_truth;
     CTruthMatcher m_matcher;
     TLabelledRun& m_run;
-    std::map<int, const TTrueLandmark*> m_posters;
+    std::map<int, const TTrueLandmark*> m_landmarks;
 };
 
 }  // namespace
@@ -108,6 +164,12 @@ TLabelledRun labelRun(const std::filesystem::path& folder, const TSlamConfig& co
         throw std::invalid_argument(stem + ".landmarks.csv: holds no poster (kind = salient)");
     const auto log = observations::readLog(stem + ".rawlog");
     for (const auto& record : recordsOf(log, config)) labelling.add(*record);
+    const laser::CLineExtractor lines(config.lines);
+    const laser::CCornerExtractor corners(config.corners);
+    for (const auto& step : log.steps)
+        for (const auto& o : step.observations)
+            if (const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(o))
+                labelling.add(*scan, corners.extract(lines.extract(*scan)).corners);
     if (run.pictures == 0)
         throw std::runtime_error(stem + ".rawlog: holds no picture that can be looked at");
     if (run.seen.empty())

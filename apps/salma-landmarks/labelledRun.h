@@ -3,6 +3,7 @@
 
 #include <CTruthMatcher.h>
 #include <TSlamConfig.h>
+#include <salma/association/TMeasurement.h>
 #include <salma/observations/TPatch.h>
 
 #include <cstddef>
@@ -21,11 +22,14 @@ struct TSeenPoster {
     observations::TPatch patch;
 };
 
-/// A true poster whose centre was in a picture and not hidden.
+/// A true poster whose centre was in a picture, or a true corner in a scan, and not hidden.
 struct TTrueView {
-    double incidence{0};  //!< Between the wall's normal and the direction to the robot [rad].
-    double range{0};      //!< From the robot [m].
-    bool seen{false};     //!< The front end took it.
+    association::ELandmarkKind kind{association::ELandmarkKind::salient};
+    std::string thing;    //!< Texture of the poster, or world and id of the corner.
+    double incidence{0};  //!< Between the poster's normal and the direction to the camera [rad].
+    double range{0};      //!< From camera or scanner [m].
+    double inView{1};     //!< What CDetectionModel makes of the view: probability.
+    bool seen{false};     //!< The front end took the poster; the scan had the corner.
 };
 
 /// What the front end saw in a simulated log, named by the truth.
@@ -34,13 +38,13 @@ struct TLabelledRun {
     std::size_t pictures{0};
     std::size_t strangers{0};       //!< Entities that show no true poster; not used.
     std::vector<TSeenPoster> seen;  //!< In the order of time.
-    std::vector<TTrueView> views;   //!< Of the pictures that the front end looked at.
+    std::vector<TTrueView> views;   //!< Of the pictures that the front end looked at, and scans.
 };
 
-/** Runs the front end over the pictures of a folder that salma-sim wrote, or takes the records that
- * its X.salient.rawlog holds, and names each entity by truth geometry.
- * \throw std::runtime_error, std::invalid_argument naming file, line and value: no or several
- * truths, malformed tables, no rawlog, no poster in the truth, none seen. */
+/** Looks for corners in all scans, and runs the front end over the pictures of a folder that
+ * salma-sim wrote, or takes the records that its X.salient.rawlog holds, and names each entity by
+ * truth geometry. \throw std::runtime_error, std::invalid_argument naming file, line and value: no
+ * or several truths, malformed tables, no rawlog, no poster in the truth, none seen. */
 TLabelledRun labelRun(const std::filesystem::path& folder, const TSlamConfig& config);
 
 }  // namespace salma::apps

@@ -126,11 +126,18 @@ TEST(SalmaLandmarks, LearnsATableThatSalmaSlamReads) {
     // one pair of places, no duplicate: half a pair of two
     EXPECT_NEAR(figures["duplicate_rate"]["value"], 0.25, 0.05);
 
+    for (const std::string kind : {"posters", "corners"}) {
+        const auto& views = figures["report"]["detection"][kind];
+        EXPECT_GT(views["found"], 3) << kind;
+        EXPECT_GT(views["views"], views["found"]) << kind;
+        EXPECT_LT(views["log_loss"]["learned"], 0.69) << kind << ": no worse than a coin";
+    }
+
     const auto ini = (out / "calibration.ini").string();
     const auto read = runProcess({program("salma-slam"), ini, "--print-config"});
     EXPECT_EQ(read.exitCode, 0) << read.output;
-    for (const std::string key :
-         {"\nscore_knots ", "\nlog_lr_knots ", "\nkeypoint_log_lr_knots "}) {
+    for (const std::string key : {"\nscore_knots ", "\nlog_lr_knots ", "\nkeypoint_log_lr_knots ",
+                                  "\nby_incidence ", "\nby_range ", "\nby_corner_range "}) {
         const std::string text = readFile(ini);
         const auto from = text.find(key);
         ASSERT_NE(from, std::string::npos) << text;
@@ -148,6 +155,13 @@ TEST(SalmaLandmarks, ShippedTablesAreTheDefaults) {
          {"\nduplicate_rate ", "\nscore_knots ", "\nlog_lr_knots ", "\nkeypoint_score_knots ",
           "\nkeypoint_log_lr_knots ", "\ndecorrelation_deg "})
         EXPECT_NE(readFile(learned).find(key), std::string::npos) << key;
+}
+
+TEST(SalmaLandmarks, LearnedTablesOfDetectionCanBeUsed) {
+    const std::string learned = SALMA_SOURCE_DIR "/share/detection.ini";
+    const auto read = runProcess({program("salma-slam"), learned, "--print-config"});
+    EXPECT_EQ(read.exitCode, 0) << read.output;
+    EXPECT_NE(read.output, runProcess({program("salma-slam"), "--print-config"}).output);
 }
 
 TEST(SalmaLandmarks, GivesTheSameTwiceAndTakesRecordsThatAreStored) {

@@ -11,7 +11,7 @@ namespace salma::slam {
  *
  * The probability of a poster is the product of two tables, that of a corner a third, all
  * interpolated and constant beyond their ends. They are set by hand; `salma-landmarks calibrate`
- * measures the same of posters in detection.csv. */
+ * learns others: share/detection.ini. */
 struct TDetectionOptions : public config::TStrictOptions<TDetectionOptions> {
     std::vector<double> incidence{0, 15, 30, 45, 60, 75, 90};  //!< Ascending [deg].
     std::vector<double> byIncidence{0.6, 0.6, 0.55, 0.5, 0.4, 0.2, 0.02};
