@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <spawn.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -47,32 +46,37 @@ class CPipe {
     std::array<int, 2> m_ends{};
 };
 
-pid_t spawn(const std::vector<std::string>& words, int output) {
+/// In the child, where only system calls are allowed. Tells why on `errors` if it returns.
+void become(char* const* arguments, int output, int errors, const TCommandLimits& limits) {
+    const rlimit size{limits.fileBytes, limits.fileBytes}, none{0, 0};
+    const int nothing = open("/dev/null", O_RDONLY);
+    // Before the program runs: what it starts in turn takes over the limits that it has then.
+    if (setpgid(0, 0) == 0 && setrlimit(RLIMIT_FSIZE, &size) == 0 &&
+        setrlimit(RLIMIT_CORE, &none) == 0 && nothing >= 0 && dup2(nothing, STDIN_FILENO) >= 0 &&
+        dup2(output, STDOUT_FILENO) >= 0 && dup2(output, STDERR_FILENO) >= 0)
+        execvp(arguments[0], arguments);
+    const int error = errno;
+    (void)!write(errors, &error, sizeof error);
+    _exit(127);
+}
+
+/// Starts a program in a process group of its own.
+pid_t spawn(const std::vector<std::string>& words, int output, const TCommandLimits& limits) {
     std::vector<char*> arguments;
     for (const auto& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, output, STDERR_FILENO);
-    posix_spawnattr_t attributes;
-    posix_spawnattr_init(&attributes);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);  // of its own
-    pid_t child = 0;
-    const int error =
-        posix_spawnp(&child, arguments[0], &actions, &attributes, arguments.data(), environ);
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&actions);
+    CPipe errors;  // a successful exec closes it
+    const pid_t child = fork();
+    if (child == 0) become(arguments.data(), output, errors.writeEnd(), limits);
+    int error = child < 0 ? errno : 0;
+    errors.closeWriteEnd();
+    pollfd ended{errors.readEnd(), POLLIN, 0};
+    while (child > 0 && poll(&ended, 1, -1) < 0 && errno == EINTR) {
+    }
+    if (child > 0 && read(errors.readEnd(), &error, sizeof error) > 0) waitpid(child, nullptr, 0);
     if (error != 0)
         throw std::runtime_error(std::string("cannot be started: ") + std::strerror(error));
     return child;
-}
-
-void limit(pid_t child, const TCommandLimits& limits) {
-    const rlimit size{limits.fileBytes, limits.fileBytes}, none{0, 0};
-    prlimit(child, RLIMIT_FSIZE, &size, nullptr);
-    prlimit(child, RLIMIT_CORE, &none, nullptr);
 }
 
 /// Takes what the program says, and keeps the beginning. False at its end.
@@ -106,8 +110,7 @@ std::string verdict(int status) {
 
 std::string runCommand(const std::vector<std::string>& words, const TCommandLimits& limits) {
     CPipe pipe;
-    const pid_t child = spawn(words, pipe.writeEnd());
-    limit(child, limits);
+    const pid_t child = spawn(words, pipe.writeEnd(), limits);
     pipe.closeWriteEnd();
     const auto deadline = TClock::now() + std::chrono::duration<double>(limits.seconds);
     std::string said;

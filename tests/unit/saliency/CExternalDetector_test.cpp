@@ -111,7 +111,7 @@ TEST_F(ExternalDetector, DoesNotWaitForWhatAProgramLeavesBehind) {
 }
 
 TEST_F(ExternalDetector, SurvivesEndlessOutput) {
-    const auto file = complaint("yes '1 2 3 0 3' > $2");
+    const auto file = complaint("yes '1 2 3 0 3' > $2", 120);
     EXPECT_TRUE(contains(file, "File size limit exceeded") || contains(file, "exit code 1"))
         << file;
     const auto spoken = complaint("yes", 0.5);
