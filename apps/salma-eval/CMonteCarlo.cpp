@@ -62,7 +62,6 @@ void mapAndScore(TSlamConfig config,
     const auto backend = createBackend(config);
     slam::TRunRecord record;
     CMapping(config, log, *backend).run({}, record);
-    backend->results(record);
     result.mappingSeconds = processorTime() - start;
     if (record.trajectory.empty())
         throw std::runtime_error(log.file + ": nothing in it could be used for a step");

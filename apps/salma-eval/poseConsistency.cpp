@@ -45,10 +45,10 @@ TPoseConsistency poseConsistency(const slam::TRunRecord& record,
     for (const auto& row : record.trajectory) {
         CPose2D T_w_r;
         if (!viz::interpolate(truth, row.time, maxGap, T_w_r)) continue;
-        if (!T_m_w) T_m_w = row.pose + (CPose2D() - T_w_r);
+        if (!T_m_w) T_m_w = row.running + (CPose2D() - T_w_r);
         const CPose2D T_m_r = *T_m_w + T_w_r;
-        const Eigen::Vector3d error(row.pose.x() - T_m_r.x(), row.pose.y() - T_m_r.y(),
-                                    mrpt::math::wrapToPi(row.pose.phi() - T_m_r.phi()));
+        const Eigen::Vector3d error(row.running.x() - T_m_r.x(), row.running.y() - T_m_r.y(),
+                                    mrpt::math::wrapToPi(row.running.phi() - T_m_r.phi()));
         result.finalError = std::hypot(error.x(), error.y());
         result.maxJump = std::max(result.maxJump, result.finalError - before);
         before = result.finalError;

@@ -183,7 +183,6 @@ void CSlamApp::run() {
 
     const auto backend = createBackend(m_config);
     CMapping(m_config, m_log, *backend).run(seen.records, m_record);
-    backend->results(m_record);
     if (m_record.trajectory.empty())
         throw std::runtime_error(m_log.file + ": nothing in it could be used for a step");
     noticeOfCalibration();

@@ -154,11 +154,10 @@ mrpt::poses::CPosePDFGaussian CMapping::incrementTo(const TEvent& event) {
     return unknown;
 }
 
-void CMapping::keepPoints(const CObservation2DRangeScan& scan, slam::TRunRecord& record) const {
+void CMapping::keepPoints(const CObservation2DRangeScan& scan) {
     constexpr std::size_t kThin =
         4;  // a picture of the walls, not a map: every fourth beam will do
-    const auto T_w_r = m_backend.pose().mean;
-    const mrpt::poses::CPose2D T_w_l = T_w_r + mrpt::poses::CPose2D(scan.sensorPose);
+    const mrpt::poses::CPose2D T_r_l(scan.sensorPose);
     const double sign = scan.rightToLeft ? 1 : -1;
     const std::size_t n = scan.getScanSize();
     const double beamStep = n > 1 ? scan.aperture / static_cast<double>(n - 1) : 0.0;
@@ -167,7 +166,17 @@ void CMapping::keepPoints(const CObservation2DRangeScan& scan, slam::TRunRecord&
         const double angle = sign * (static_cast<double>(i) * beamStep - 0.5 * scan.aperture);
         const double range = scan.getScanRange(i);
         mrpt::math::TPoint2D point;
-        T_w_l.composePoint({range * std::cos(angle), range * std::sin(angle)}, point);
+        T_r_l.composePoint({range * std::cos(angle), range * std::sin(angle)}, point);
+        m_points.push_back({m_steps, point});
+    }
+}
+
+/// Where the whole run has them: a loop that was closed later moved them, too.
+void CMapping::placePoints(slam::TRunRecord& record) const {
+    record.scanPoints.clear();
+    for (const TSeenPoint& seen : m_points) {
+        mrpt::math::TPoint2D point;
+        record.trajectory.at(seen.step).pose.composePoint(seen.point, point);
         record.scanPoints.push_back(point);
     }
 }
@@ -202,10 +211,13 @@ void CMapping::run(const std::vector<CObservationSalientLandmarks::Ptr>& records
         for (const auto& o : event.observations)
             if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(o)) {
                 m_lastScan = event.odometry;
-                keepPoints(*scan, record);
+                keepPoints(*scan);
             }
+        ++m_steps;
     }
     m_backend.finish();
+    m_backend.results(record);
+    placePoints(record);
 }
 
 }  // namespace salma::apps

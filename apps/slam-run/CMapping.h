@@ -28,12 +28,17 @@ class CMapping {
     CMapping(const TSlamConfig& config, const observations::TLog& log, slam::CSlamBackend& backend);
 
     /** \param records Of the log's pictures, beside those that the log itself holds.
-     * \param record Its scan points are filled. */
+     * \param record Of the whole run, the laser's points included. */
     void run(const std::vector<observations::CObservationSalientLandmarks::Ptr>& records,
              slam::TRunRecord& record);
 
  private:
     struct TEvent;
+    /// Where a beam ended.
+    struct TSeenPoint {
+        std::size_t step{0};
+        mrpt::math::TPoint2D point;  //!< In the robot frame [m].
+    };
     std::vector<TEvent> events(
         const std::vector<observations::CObservationSalientLandmarks::Ptr>& records) const;
     bool measure(const TEvent& event,
@@ -43,7 +48,8 @@ class CMapping {
     bool isDue(const TEvent& event) const;
     mrpt::poses::CPosePDFGaussian incrementTo(const TEvent& event);
     void noteView(const TEvent& event, slam::TStepInput& step);
-    void keepPoints(const mrpt::obs::CObservation2DRangeScan& scan, slam::TRunRecord& record) const;
+    void keepPoints(const mrpt::obs::CObservation2DRangeScan& scan);
+    void placePoints(slam::TRunRecord& record) const;
 
     const TSlamConfig& m_config;
     const observations::TLog& m_log;
@@ -52,6 +58,8 @@ class CMapping {
     laser::CCornerExtractor m_corners;
     laser::CWallOdometry m_walls;
     slam::COdometryNoise m_noise;
+    std::size_t m_steps{0};
+    std::vector<TSeenPoint> m_points;                //!< By step.
     double m_lastTime{0};                            //!< Of the last step [s].
     mrpt::poses::CPose2D m_lastOdometry;             //!< Of the last step.
     std::optional<mrpt::poses::CPose2D> m_lastScan;  //!< Odometry of the last scan that was used.

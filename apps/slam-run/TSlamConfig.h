@@ -30,7 +30,7 @@ struct TRunOptions : public config::TStrictOptions<TRunOptions> {
     std::string rawlog;  //!< Log to read if the command line names none.
     int threads{0};      //!< For the pictures; 0: one per core. The result does not depend on it.
     bool corners{true};  //!< Laser corners are landmarks.
-    double scanDistance{0.2};      //!< A scan is used after this much travel [m] ...
+    double scanDistance{0.05};     //!< A scan is used after this much travel [m] ...
     double scanTurn{M_PI / 36};    //!< ... or after this much turning since the one before [rad].
     double unknownMotion{0.5};     //!< Without odometry: sigma of the motion in one second [m].
     double unknownTurn{M_PI / 6};  //!< Without odometry: sigma of the turn in one second [rad].

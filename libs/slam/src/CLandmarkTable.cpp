@@ -52,6 +52,7 @@ void CLandmarkTable::merge(std::size_t kept, std::size_t gone) {
     TLandmark& to = m_landmarks[kept];
     const TLandmark& from = m_landmarks[gone];
     to.sightings += from.sightings;
+    to.confirmed = to.confirmed || from.confirmed;
     to.firstTime = std::min(to.firstTime, from.firstTime);
     if (from.lastTime >= to.lastTime) to.countedAngle = from.countedAngle;
     to.lastTime = std::max(to.lastTime, from.lastTime);

@@ -24,7 +24,10 @@ constexpr double wallTolerance = 25 * M_PI / 180;
 constexpr double largestTurn = M_PI / 3;                       // of proposals by corners alone
 constexpr double cellLength = 0.4, cellTurn = 6 * M_PI / 180;  // in which proposals are one
 constexpr std::size_t proposalsJudged = 80, pairsOfCorners = 24;
-constexpr double slack = 0.03;  // corners are not points, sides of posters not sharp [m]
+constexpr double slack = 0.03;        // corners are not points, sides of posters not sharp [m]
+constexpr double elsewhereFrom = 1;   // two landmarks nearer than this may be one seen twice [m]
+constexpr double priorOfTwins = 0.1;  // odds that two posters of a building are prints of one
+constexpr double leastOdds = 0.02;    // less is not looked at
 
 double gateOf(std::size_t degreesOfFreedom) {
     return boost::math::quantile(boost::math::chi_squared(static_cast<double>(degreesOfFreedom)),
@@ -131,6 +134,40 @@ double CLocalMapSearch::ratioAmongLookAlikes(const TMark& local, const TMark& le
     return -std::log((1 - q) * std::exp(-plain) + q);
 }
 
+/// Fills `m_alike`.
+void CLocalMapSearch::findLookAlikes() {
+    const auto consider = [this](const TMark& a, const TMark& b, bool across) {
+        const double odds = priorOfTwins * std::exp(ratio(a, b));
+        if (!(odds > leastOdds)) return;  // false for NaN
+        m_alike[a.index].push_back({b.place, across, odds});
+        m_alike[b.index].push_back({a.place, across, odds});
+    };
+    for (const TMarks* marks : {&m_local, &m_left})
+        for (std::size_t i = 0; i < marks->size(); ++i)
+            for (std::size_t j = 0; j < i; ++j)
+                if (salient((*marks)[i]) && salient((*marks)[j]))
+                    consider((*marks)[i], (*marks)[j], false);
+    for (const TMark& a : m_local)
+        for (const TMark& b : m_left)
+            if (salient(a) && salient(b)) consider(a, b, true);
+}
+
+/** Whether the building probably has more things that look like a poster.
+ *
+ * Signs hang where the building's plan puts them: that they fall together says of two places no
+ * more than that they are built alike, as corners do.
+ * \param T Brings what the other map has into the frame of the mark's own. */
+bool CLocalMapSearch::repeats(const TMark& mark, const Eigen::Vector3d& T) const {
+    const auto others = m_alike.find(mark.index);
+    if (others == m_alike.end()) return false;
+    double single = 1;
+    for (const TAlike& other : others->second) {
+        const Eigen::Vector2d place = other.across ? applied(T, other.place) : other.place;
+        if ((place - mark.place).norm() > elsewhereFrom) single /= 1 + other.odds;
+    }
+    return single < 0.5;
+}
+
 /// Whether odometry lets two landmarks be one, generously.
 bool CLocalMapSearch::inReach(const TMark& local, const TMark& left) const {
     const Eigen::Index a = rowOf(local.index), b = rowOf(left.index);
@@ -232,9 +269,13 @@ std::vector<TSameLandmark> CLocalMapSearch::matched(const Eigen::Vector3d& T, do
         if (localTaken[option.local] || leftTaken[option.left]) continue;
         localTaken[option.local] = leftTaken[option.left] = true;
         const TMark &a = m_local[option.local], &b = m_left[option.left];
-        pairs.push_back(
-            {a.index, b.index, option.distance,
-             salient(a) ? ratioAmongLookAlikes(a, b) : std::numeric_limits<double>::quiet_NaN()});
+        TSameLandmark pair{a.index, b.index, option.distance,
+                           std::numeric_limits<double>::quiet_NaN()};
+        if (salient(a)) {
+            pair.logRatio = ratioAmongLookAlikes(a, b);
+            pair.repeats = repeats(a, inverseOf(T)) || repeats(b, T);
+        }
+        pairs.push_back(pair);
     }
     return pairs;
 }

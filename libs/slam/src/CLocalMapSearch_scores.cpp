@@ -23,7 +23,8 @@ constexpr int glancesAtCorner = 3;                         // scans that should 
 /* Corners of one wall stand and fall together, so each counts half: of log(0.75 * 16 / 1 m^2),
  * found within 0.1 m where one is found per square metre, and of log 0.25, not found. */
 constexpr double cornerFound = 1.2, cornerMissed = -0.7;
-constexpr double contradiction = 0.3;  // two posters nearer than this hang in one place [m]
+constexpr double elsewhereToo = 0.5;  // share of a building's posters whose place has one elsewhere
+constexpr double contradiction = 0.6;  // two posters nearer than this hang in one place [m]
 constexpr double leastArea = 100;      // in which a lost robot may be [m^2]
 
 Eigen::Index rowOf(std::size_t landmark) { return 3 + 2 * static_cast<Eigen::Index>(landmark); }
@@ -53,16 +54,21 @@ double CLocalMapSearch::missed(const TMark& mark,
         seen.wallAngle = wall - step.pose[2];
         logMissed += std::log1p(-m_detection.poster(step, seen).probability());
     }
-    return std::max(logMissed, std::log(m_options.overlooked));
+    // What was seen once only may not be there at all.
+    const double real = m_input.landmarks[mark.index].sightings > 1 ? 0.95 : 0.6;
+    const double found = real * std::min(1 - std::exp(logMissed), 1 - m_options.overlooked);
+    // In another place that is built alike something hangs there, too, and is missed as often.
+    return std::log((1 - found) / (1 - found * (1 - elsewhereToo)));
 }
 
 void CLocalMapSearch::weighPosters(TAlignment& alignment) {
     std::set<std::size_t> matchedMarks;
-    alignment.posters = 0;
+    alignment.posters = alignment.signs = 0;
     for (const TSameLandmark& pair : alignment.pairs) {
         matchedMarks.insert(pair.local);
         matchedMarks.insert(pair.left);
-        if (!std::isnan(pair.logRatio)) alignment.posters += pair.logRatio;
+        if (!std::isnan(pair.logRatio))
+            (pair.repeats ? alignment.signs : alignment.posters) += pair.logRatio;
     }
     const Eigen::Vector3d& T = alignment.T;
     const Eigen::Vector3d back = inverseOf(T);
@@ -79,13 +85,16 @@ void CLocalMapSearch::weighPosters(TAlignment& alignment) {
             other = std::min(other, ratio(local, left));
             contradicted.insert(left.index);
         }
-        alignment.posters += other < 0 ? other : missed(local, T, 0, m_localStart);
+        if (other < 0)
+            alignment.posters += other;
+        else if (!repeats(local, back))
+            alignment.posters += missed(local, T, 0, m_localStart);
     }
     for (const TMark& left : m_left) {
         if (!salient(left) || matchedMarks.count(left.index) != 0 ||
             contradicted.count(left.index) != 0)
             continue;
-        alignment.posters += missed(left, back, m_localStart, end);
+        if (!repeats(left, T)) alignment.posters += missed(left, back, m_localStart, end);
     }
 }
 
@@ -182,6 +191,7 @@ bool CLocalMapSearch::sameAlignment(const TAlignment& a, const TAlignment& b) co
 TRelocation CLocalMapSearch::run() {
     TRelocation result;
     if (m_local.size() < 2 || m_left.size() < 2) return result;
+    findLookAlikes();
     std::vector<TAlignment> alignments;
     for (const Eigen::Vector3d& T : proposals()) {
         TAlignment alignment = aligned(T);

@@ -9,7 +9,7 @@
 namespace salma::slam {
 
 double TAlignment::score(double geometryCap) const {
-    return posters + std::min(corners, geometryCap) + odometry;
+    return posters + std::min(signs + corners, geometryCap) + std::min(odometry, 0.0);
 }
 
 std::size_t TAlignment::matchedPosters() const {

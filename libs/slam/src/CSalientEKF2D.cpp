@@ -90,8 +90,8 @@ void CSalientEKF2D::process(const TStepInput& step) {
     else
         stepByMrpt();
     learn();
+    if (keepsHistory()) remember();
     if (m_relocates) {
-        remember();
         relocate();
         if (m_now.closesLoop && m_history.back().travel >= m_lastSmoothing + smoothingTravel)
             smooth();
@@ -146,8 +146,7 @@ TAssociationProblem CSalientEKF2D::problem() {
             3 * result.predictionCovariance.diagonal().segment<2>(row).cwiseSqrt();
         const double sigma = std::max(slack[0], expected.z[0] * slack[1]) / 3;
         m_now.sigmas.push_back(sigma);
-        expected.visible = !(m_relocates && sigma > m_care.relocation.unsure) &&
-                           expected.z[0] <= m_ekf.maxRange + slack[0] &&
+        expected.visible = sigma <= largestSigma(k) && expected.z[0] <= m_ekf.maxRange + slack[0] &&
                            std::abs(expected.z[1]) <= halfView + slack[1];
         result.landmarks.push_back(expected);
     }
@@ -170,21 +169,57 @@ void CSalientEKF2D::associate() {
         m_now.landmarks.push_back(decision.landmark);
         m_now.decisions.push_back(decisionOf(decision.verdict));
     }
-    holdBack(ELandmarkKind::corner, m_provisionalCorners);
-    holdBack(ELandmarkKind::salient, m_provisionalEntities);
+    m_now.confirms.assign(m_now.decisions.size(), false);
+    holdBackCorners();
+    holdBackEntities();
     noteAssociation(posed);
 }
 
-void CSalientEKF2D::holdBack(ELandmarkKind kind, landmarks::CWideBaselineTracker& tracker) {
-    const auto& measurements = m_now.input.measurements;
-    const auto isOfKind = [kind](const TMeasurement& m) { return m.kind == kind; };
-    if (std::none_of(measurements.begin(), measurements.end(), isOfKind)) return;
-    tracker.beginStep();
-    for (std::size_t i = 0; i < measurements.size(); ++i) {
-        const TMeasurement& m = measurements[i];
-        if (m_now.decisions[i] != EDecision::created || !isOfKind(m) || m.identity) continue;
-        if (!tracker.confirms(sightingOf(m))) m_now.decisions[i] = EDecision::provisional;
+bool CSalientEKF2D::sees(ELandmarkKind kind) const {
+    const auto& all = m_now.input.measurements;
+    return std::any_of(all.begin(), all.end(), [kind](const auto& m) { return m.kind == kind; });
+}
+
+/// Corners that people and clutter make are many: they do not enter the state before they stayed.
+void CSalientEKF2D::holdBackCorners() {
+    if (!sees(ELandmarkKind::corner)) return;
+    m_provisionalCorners.beginStep();
+    for (std::size_t i = 0; i < m_now.decisions.size(); ++i) {
+        const TMeasurement& m = m_now.input.measurements[i];
+        if (m_now.decisions[i] != EDecision::created || m.identity ||
+            m.kind != ELandmarkKind::corner)
+            continue;
+        if (!m_provisionalCorners.confirms(sightingOf(m)))
+            m_now.decisions[i] = EDecision::provisional;
     }
+}
+
+/* Posters are few, and between two rows of doors they are all that tells how far the robot has
+ * come: the state takes them at their first sighting, and they wait there to be told. The step of
+ * MRPT's filter has them wait outside. */
+void CSalientEKF2D::holdBackEntities() {
+    if (!sees(ELandmarkKind::salient)) return;
+    m_provisionalEntities.beginStep();
+    for (std::size_t i = 0; i < m_now.decisions.size(); ++i) {
+        const TMeasurement& m = m_now.input.measurements[i];
+        if (m.identity || m.kind != ELandmarkKind::salient) continue;
+        const bool isNew = m_now.decisions[i] == EDecision::created;
+        const bool isOpen = m_now.decisions[i] == EDecision::paired &&
+                            !m_landmarks[static_cast<std::size_t>(m_now.landmarks[i])].confirmed;
+        if (!isNew && !isOpen) continue;
+        m_now.confirms[i] = m_provisionalEntities.confirms(sightingOf(m));
+        if (isNew && !m_now.confirms[i] && m_ekf.update == EUpdate::mrpt)
+            m_now.decisions[i] = EDecision::provisional;
+    }
+}
+
+/// What the record says of a measurement: what is not confirmed is provisional.
+EDecision CSalientEKF2D::told(std::size_t observation) const {
+    const EDecision decision = m_now.decisions[observation];
+    if (decision != EDecision::created && decision != EDecision::paired) return decision;
+    const auto index = static_cast<std::size_t>(m_now.landmarks[observation]);
+    if (!m_landmarks[index].confirmed) return EDecision::provisional;
+    return m_now.confirms[observation] ? EDecision::created : decision;
 }
 
 /// In the world as the filter has it now: between corrections that is odometry.
@@ -207,6 +242,11 @@ void CSalientEKF2D::learn() {
         const auto index = static_cast<std::size_t>(m_now.landmarks[i]);
         // Asked before the table changes: what the pairing was judged by.
         const bool counted = !created && m_now.evidence && m_now.evidence->counts(i, index);
+        if (m_now.confirms[i])
+            m_landmarks.setConfirmed(index, true);
+        else if (created && measurements[i].kind == ELandmarkKind::salient &&
+                 !measurements[i].identity)
+            m_landmarks.setConfirmed(index, false);
         const bool kept = m_landmarks.sight(index, measurements[i], m_now.input.time, heading());
         if (counted) m_landmarks.setCounted(index, viewingAngle(measurements[i]));
         if (kept && m_ratio) m_landmarks.findLookAlikes(index, m_ratio);

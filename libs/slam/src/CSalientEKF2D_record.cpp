@@ -31,9 +31,12 @@ void CSalientEKF2D::noteAssociation(const association::TAssociationProblem& prob
 void CSalientEKF2D::noteDecisions() {
     for (std::size_t i = 0; i < m_now.decisions.size(); ++i) {
         const int index = m_now.landmarks[i];
-        const int id = index < 0 ? -1 : m_landmarks[static_cast<std::size_t>(index)].id;
-        m_record.associations.push_back(associationRow(m_now.input, i, m_now.decisions[i],
-                                                       m_now.association->decisions[i], id));
+        const EDecision decision = told(i);
+        const int id = index < 0 || decision == EDecision::provisional
+                           ? -1
+                           : m_landmarks[static_cast<std::size_t>(index)].id;
+        m_record.associations.push_back(
+            associationRow(m_now.input, i, decision, m_now.association->decisions[i], id));
     }
 }
 
@@ -44,7 +47,7 @@ void CSalientEKF2D::notePose() {
     const mrpt::poses::CPosePDFGaussian estimate = pose();
     TTrajectoryRow row;
     row.time = m_now.input.time;
-    row.pose = estimate.mean;
+    row.pose = row.running = estimate.mean;
     row.covariance = estimate.cov.asEigen();
     row.odometry = m_now.input.odometry;
     row.sight = had(EDecision::paired)    ? ESight::again
@@ -61,8 +64,10 @@ void CSalientEKF2D::results(TRunRecord& record) const {
     record.relocations = m_record.relocations;
     record.joins = m_record.joins;
     record.removed = m_record.removed;
+    record.smoothed = m_record.smoothed;
     record.landmarks.clear();
     for (std::size_t k = 0; k < m_landmarks.size(); ++k) {
+        if (!m_landmarks[k].confirmed) continue;
         const auto row = static_cast<Eigen::Index>(3 + 2 * k);
         TMapLandmark landmark = mapLandmarkOf(m_landmarks[k]);
         landmark.mean = {m_xkk[row], m_xkk[row + 1]};

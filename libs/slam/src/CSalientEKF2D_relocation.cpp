@@ -18,8 +18,9 @@ namespace {
 
 /// Mean squared normalised residual up to which a landmark that was joined is believed.
 constexpr double largestMisfit = 4;
-constexpr double refusedTravel = 3;  // to the next attempt after a join that failed [m]
-constexpr double vagueSigma = 0.1;   // of a prediction: its derivatives were not exact [m]
+constexpr double refusedTravel = 3;   // to the next attempt after a join that failed [m]
+constexpr double unsureNearby = 0.5;  // of the prediction of a landmark that was just used [m]
+constexpr double vagueSigma = 0.1;    // of a prediction: its derivatives were not exact [m]
 
 }  // namespace
 
@@ -58,6 +59,20 @@ void CSalientEKF2D::noteUse() {
             m_now.closesLoop = true;
         last->second = now;
     }
+}
+
+/** Sigma of a landmark's prediction up to which the filter pairs it by itself [m].
+ *
+ * Where a landmark was not used for long, another one like it may come into view. A map without a
+ * poster has nothing by which relocation could tell them apart. */
+double CSalientEKF2D::largestSigma(std::size_t landmark) const {
+    if (!m_relocates) return std::numeric_limits<double>::infinity();
+    const double unsure = m_care.relocation.unsure, nearby = std::max(unsure, unsureNearby);
+    if (m_history.empty() || !m_landmarks.hasPoster()) return nearby;
+    const auto last = m_lastUsed.find(m_landmarks[landmark].id);
+    const bool isLeftBehind =
+        last == m_lastUsed.end() || last->second < m_history.back().travel - m_care.relocation.gap;
+    return isLeftBehind ? unsure : nearby;
 }
 
 void CSalientEKF2D::relocate() {
@@ -212,9 +227,20 @@ void CSalientEKF2D::anchor() {
     anchorAtRobot(state());
 }
 
-/// The covariance is stated in the world again.
+bool CSalientEKF2D::keepsHistory() const {
+    return m_relocates || (m_ekf.smooth && m_ekf.update == EUpdate::block);
+}
+
+/// The covariance is stated in the world again, and the path is what all measurements make of it.
 void CSalientEKF2D::finish() {
-    if (m_relocates && !m_history.empty() && !m_baseCovariance.isZero(0)) smooth();
+    if (m_history.empty()) return;
+    if (m_ekf.smooth || !m_baseCovariance.isZero(0)) smooth();
+    if (!m_ekf.smooth) return;
+    for (std::size_t k = 0; k < m_history.size(); ++k) {
+        const Eigen::Vector3d& pose = m_history[k].pose;
+        m_record.trajectory[k].pose = mrpt::poses::CPose2D(pose[0], pose[1], pose[2]);
+    }
+    m_record.smoothed = true;
 }
 
 void CSalientEKF2D::noteRelocation(const std::string& outcome, const TRelocation& found) {

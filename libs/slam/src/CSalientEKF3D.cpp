@@ -242,7 +242,7 @@ void CSalientEKF3D::noteStep() {
                                            candidate.logRatio, candidate.chosen, candidate.inGate});
     const auto flatPose = pose();
     row.time = time;
-    row.pose = flatPose.mean;
+    row.pose = row.running = flatPose.mean;
     row.covariance = flatPose.cov.asEigen();
     row.odometry = m_now.input.odometry;
     row.spatial = spatialPose().mean;

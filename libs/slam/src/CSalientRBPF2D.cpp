@@ -242,7 +242,8 @@ void CSalientRBPF2D::noteTrajectory(std::size_t particle, TRunRecord& record) co
     for (std::size_t k = 0; k < m_steps.size(); ++k) {
         TTrajectoryRow row;
         row.time = m_steps[k].input.time;
-        row.pose = mrpt::poses::CPose2D(mrpt::poses::CPose3D(path.at(k + 1)));  // 0: the start
+        // 0: the start
+        row.pose = row.running = mrpt::poses::CPose2D(mrpt::poses::CPose3D(path.at(k + 1)));
         row.covariance = m_steps[k].covariance;
         row.odometry = m_steps[k].input.odometry;
         record.trajectory.push_back(row);

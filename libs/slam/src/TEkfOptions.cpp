@@ -9,6 +9,8 @@ void TEkfOptions::visit(config::COptionVisitor& v) {
     v.choice(
         "update", update, {{"block", EUpdate::block}, {"mrpt", EUpdate::mrpt}},
         "own step with a covariance per measurement, or the step of MRPT's filter (always in 6d)");
+    v.flag("smooth", smooth,
+           "at the end estimate path and map anew from all that was measured (block)");
     v.flag("ignore_identities", ignoreIdentities, "do not read the identities in the log");
     v.number("max_range_m", maxRange, config::moreThan(0),
              "distance up to which landmarks are expected to be seen");

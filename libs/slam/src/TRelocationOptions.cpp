@@ -8,7 +8,7 @@ void TRelocationOptions::visit(config::COptionVisitor& v) {
     v.degrees("anchor_deg", anchorSigma, config::moreThan(0),
               "sigma of the heading from which covariances are stated from the robot anew");
     v.number("unsure_m", unsure, config::moreThan(0),
-             "landmarks predicted with a larger sigma are not paired but left to relocation");
+             "landmarks not used within gap_m are not paired if predicted with a larger sigma");
     v.number("local_travel_m", localTravel, config::moreThan(0),
              "landmarks first seen within this travel are the local map");
     v.number("gap_m", gap, config::atLeast(0),

@@ -131,6 +131,15 @@ void writePath(const TRunRecord& record, const std::string& file) {
     writeTum(path, file);
 }
 
+/// As the filter had it at each time, where that is not the path in the end.
+void writeRunningPath(const TRunRecord& record, const std::string& file) {
+    if (!record.smoothed) return;
+    std::vector<TStampedSpatialPose> path;
+    for (const auto& row : record.trajectory)
+        path.push_back({row.time, mrpt::poses::CPose3D(row.running)});
+    writeTum(path, file);
+}
+
 void writeSummary(const TRunRecord& record, const std::string& file) {
     const TDecisionCounts counts = countDecisions(record);
     nlohmann::ordered_json json;
@@ -143,6 +152,7 @@ void writeSummary(const TRunRecord& record, const std::string& file) {
     json["relocated"] = counts.relocated;
     json["joins"] = record.joins;
     json["removed"] = record.removed;
+    json["smoothed"] = record.smoothed;
     json["provisional"] = counts.provisional;
     json["pictures"] = record.pictures;
     json["pictures_without_landmark"] = record.picturesWithoutLandmark;
@@ -281,6 +291,7 @@ CRunWriter::CRunWriter(std::filesystem::path folder) : m_folder(std::move(folder
 
 void CRunWriter::writeTables(const TRunRecord& r) const {
     writePath(r, (m_folder / "trajectory.tum").string());
+    writeRunningPath(r, (m_folder / "running.tum").string());
     writeCsv(m_folder / "landmarks.csv", landmarkColumns(), r.landmarks.size(),
              [&](std::size_t i) { return cellsOf(r.landmarks[i]); });
     if (!r.trajectory.empty() && r.trajectory.front().spatial)

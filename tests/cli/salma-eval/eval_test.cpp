@@ -174,8 +174,9 @@ TEST(SalmaEval, NamesFileAndLineOfAMalformedInput) {
     EXPECT_NE(failure(eval({"trajectory", reference, "no-such.tum"})).find("no-such.tum"),
               std::string::npos);
     const TPair pair;
-    pair.folder.write("run/associations.csv",
-                      std::string(kAssociations) + "13,0,salient,4,14,1,2,perhaps,0,1,1,1\n");
+    pair.folder.write(
+        "run/associations.csv",
+        std::string(kAssociations) + "13,0,salient,4,14,1,2,perhaps,0,1,1,1,nearest\n");
     EXPECT_NE(failure(pair.score()).find("associations.csv:10: decision = 'perhaps' is not known"),
               std::string::npos);
     pair.folder.write("truth/loop.sightings.csv",

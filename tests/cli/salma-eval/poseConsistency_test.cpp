@@ -33,7 +33,7 @@ viz::TTrajectory truthOf(const std::vector<CPose2D>& poses) {
 slam::TTrajectoryRow rowAt(std::size_t i, const CPose2D& pose, const Eigen::Matrix3d& covariance) {
     slam::TTrajectoryRow row;
     row.time = 100 + 0.1 * static_cast<double>(i);
-    row.pose = pose;
+    row.running = pose;
     row.covariance = covariance;
     return row;
 }

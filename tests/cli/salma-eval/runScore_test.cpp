@@ -44,7 +44,8 @@ slam::TRunRecord runWith(const std::function<CPose2D(int)>& error) {
         slam::TTrajectoryRow row;
         row.time = timeOf(i);
         const CPose2D e = error(i), there = onCircle(i);
-        row.pose = row.odometry = CPose2D(there.x() + e.x(), there.y() + e.y(), there.phi());
+        row.pose = row.running = row.odometry =
+            CPose2D(there.x() + e.x(), there.y() + e.y(), there.phi());
         record.trajectory.push_back(row);
     }
     return record;

@@ -16,7 +16,10 @@ class CFixedBackend : public slam::CSlamBackend {
     explicit CFixedBackend(const mrpt::poses::CPose2D& pose) { m_pose.mean = pose; }
     void process(const slam::TStepInput& /*step*/) override { ++steps; }
     mrpt::poses::CPosePDFGaussian pose() const override { return m_pose; }
-    void results(slam::TRunRecord& /*record*/) const override {}
+    void results(slam::TRunRecord& record) const override {
+        record.trajectory.assign(static_cast<std::size_t>(steps), {});
+        for (auto& row : record.trajectory) row.pose = m_pose.mean;
+    }
 
     int steps{0};
 

@@ -228,10 +228,12 @@ TEST(CFrontEnd, TriesTheNextEntityIfTheFirstIsRefused) {
     test::pictureOf(wall, cv::Rect2d(0.25, 1.1, 0.25, 0.22), 9)
         .colRange(400, 640)
         .copyTo(v.grey.colRange(400, 640));
-    const auto first = CFrontEnd().process(v);
+    TSeeingOptions options;
+    options.selection.maxEntities = options.selection.maxTries = 1;
+    const auto first = CFrontEnd(options).process(v);
     ASSERT_EQ(first.landmarks.size(), 1u);
     const bool smallWins = first.landmarks[0].width < 0.3;
-    TSeeingOptions options;  // that refuse the one that wins
+    // Now the one that wins is refused.
     (smallWins ? options.frontEnd.minSize : options.frontEnd.maxSize) = 0.35;
     const auto one = CFrontEnd(options).process(v);
     EXPECT_TRUE(one.landmarks.empty());

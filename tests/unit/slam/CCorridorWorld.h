@@ -23,7 +23,7 @@ struct TCorridorOptions {
     int posters{14};         //!< In each ring.
     int prints{0};           //!< Of these, so many show one of three pictures that hang everywhere.
     double driftFactor{1};   //!< True odometry noise over the stated one.
-    double statedFactor{1};  //!< Stated noise over the default one.
+    double statedFactor{1};  //!< Stated noise over that of good wheels.
     double headingBias{0};   //!< Systematic drift [rad/m].
 };
 
@@ -96,6 +96,9 @@ class CCorridorWorld {
 
     static TOdometryOptions stated(double factor) {
         TOdometryOptions options;
+        options.alongPerMetre = 0.05;
+        options.headingPerMetre = 1.2 * M_PI / 180;
+        options.headingPerRadian = 1.7 * M_PI / 180;
         for (double* sigma : {&options.alongPerMetre, &options.acrossPerMetre,
                               &options.headingPerMetre, &options.headingPerRadian})
             *sigma *= factor;

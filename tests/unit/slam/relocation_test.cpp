@@ -37,6 +37,7 @@ bool isSound(CSalientEKF2D& filter) {
 TMapCare fromTheRobot() {
     TMapCare care;
     care.relocation.anchorSigma = M_PI / 180;
+    care.relocation.unsure = 0.5;
     return care;
 }
 

@@ -23,8 +23,8 @@ struct TSelectionOptions : public config::TStrictOptions<TSelectionOptions> {
     int minRegions{2};       //!< Regions that make an entity.
     double touch{2.0};    //!< Two regions touch if their centres are nearer than this times the sum
                           //!< of their scales.
-    int maxEntities{1};   //!< Landmarks taken from one picture.
-    int maxTries{1};      //!< Entities looked at until there are so many.
+    int maxEntities{3};   //!< Landmarks taken from one picture.
+    int maxTries{4};      //!< Entities looked at until there are so many.
     double lowest{0.3};   //!< Regions whose centre lies lower above the floor are refused [m].
     double highest{2.6};  //!< And higher ones [m].
     double wallMargin{0.1};  //!< How far beyond the end of a laser line the wall is believed [m].

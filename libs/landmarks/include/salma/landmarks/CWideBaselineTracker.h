@@ -47,8 +47,7 @@ bool isSamePlace(const TSighting& a, const TSighting& b, const TTrackingOptions&
  * What is seen once may be a reflection, a passer-by or a wrong border. A sighting continues the
  * nearest provisional entity whose wall, place along it and appearance agree; once `min_views`
  * places have seen one under angles that span `min_spread`, it is confirmed and forgotten here. It
- * never touches the filter: the landmark starts from its last sighting alone, so that no
- * measurement counts twice. Corners of the laser wait in the same way, without wall and appearance.
+ * never touches a filter. Corners of the laser wait in the same way, without wall and appearance.
  * Source: K.-L. Ho, transfer report, Oxford 2004, section 4.1.2 (the check); own. */
 class CWideBaselineTracker {
  public:

@@ -4,6 +4,7 @@
 #include <salma/association/TAssociationProblem.h>
 #include <salma/slam/TRunRecord.h>
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -34,6 +35,8 @@ struct TLandmark {
     std::optional<int> identity;  //!< As the log states it.
     double wallAngle{0};          //!< Of the wall's normal, world; NaN if unknown [rad].
     double wallAngleSigma{0};     //!< [rad]
+    /// False: seen from one place only; it helps to find the way, but may be nothing that stays.
+    bool confirmed{true};
     std::vector<TView> views;
     double firstWallAngle{0};  //!< As it was at creation, for the record [rad].
     mrpt::math::TPoint2D firstMean;
@@ -106,6 +109,15 @@ class CLandmarkTable {
     /// Share of the salient landmarks of the map that look like this one, [0, 1).
     double lookAlikeShare(std::size_t index) const;
 
+    /// True if one is known by its appearance.
+    bool hasPoster() const {
+        return std::any_of(m_landmarks.begin(), m_landmarks.end(),
+                           [](const TLandmark& l) { return l.confirmed && !l.views.empty(); });
+    }
+
+    void setConfirmed(std::size_t index, bool confirmed) {
+        m_landmarks[index].confirmed = confirmed;
+    }
     void setCounted(std::size_t index, double angle) { m_landmarks[index].countedAngle = angle; }
 
  private:

@@ -9,10 +9,10 @@ namespace salma::slam {
 
 /// Section [odometry] of config.ini: standard deviations after one metre and after one radian.
 struct TOdometryOptions : public config::TStrictOptions<TOdometryOptions> {
-    double alongPerMetre{0.05};   //!< In the direction of travel, after one metre [m].
+    double alongPerMetre{0.12};   //!< In the direction of travel, after one metre [m].
     double acrossPerMetre{0.02};  //!< Sideways, after one metre [m].
-    double headingPerMetre{mrpt::DEG2RAD(1.2)};   //!< After one metre [rad].
-    double headingPerRadian{mrpt::DEG2RAD(1.7)};  //!< After one radian of turning [rad].
+    double headingPerMetre{mrpt::DEG2RAD(1.5)};   //!< After one metre [rad].
+    double headingPerRadian{mrpt::DEG2RAD(2.5)};  //!< After one radian of turning [rad].
     double minPosition{1e-4};                 //!< Added in each step in which the robot moves [m].
     double minHeading{mrpt::DEG2RAD(0.005)};  //!< The same for the heading [rad].
 

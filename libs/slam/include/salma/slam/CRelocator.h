@@ -31,6 +31,7 @@ struct TSameLandmark {
     std::size_t local{0}, left{0};  //!< Indices in the table.
     double distance{0};             //!< Between them after alignment [m].
     double logRatio{0};             //!< Of their appearance; NaN for corners.
+    bool repeats{false};            //!< Things that look like it hang elsewhere, too.
 };
 
 /// A way to lay the local map onto the map that was left behind.
@@ -38,13 +39,14 @@ struct TAlignment {
     Eigen::Vector3d T{0, 0, 0};  //!< World as the filter has it to the left map (x, y, turn).
     std::vector<TSameLandmark> pairs;
     double posters{0};    //!< What posters say, seen and missed [nats].
+    double signs{0};      //!< What posters say of which the building has several [nats].
     double corners{0};    //!< What corners say [nats].
     double odometry{0};   //!< What the path says [nats].
     double distance2{0};  //!< Of all pairs together, with T free: 2 n - 3 degrees of freedom.
 
     double score(double geometryCap) const;
     /// Against other alignments: corners count in full.
-    double total() const { return posters + corners + odometry; }
+    double total() const { return posters + signs + corners + odometry; }
     std::size_t matchedPosters() const;
 };
 
@@ -73,10 +75,12 @@ using TRatioCache = std::map<std::array<int, 4>, double>;
  * corners. Each is judged on the whole local map:
  *  - posters: log LR of those that fall together; for those that do not, the probability that the
  *    other pass, which looked there, overlooked it;
- *  - corners likewise, without appearance; buildings repeat, so against "a new place" they
- *    count `geometryCap` at most, but in full between alignments;
+ *  - corners likewise, without appearance; buildings repeat, so against "a new place" they and
+ *    posters of which there are several count `geometryCap` at most, but in full between
+ *    alignments;
  *  - odometry: log density of the shift that it would have to have made, its covariance widened by
- *    `driftFactor`, mixed with being lost altogether.
+ *    `driftFactor`, mixed with being lost altogether. That a place is near does not prove that it
+ *    is the same (there are other floors): against "a new place" it only speaks against.
  * Found is an alignment that reaches `accept`, leads by `margin`, and whose pairs are jointly
  * compatible under the covariance of both maps. Source: Neira, Tardos and Castellanos, ICRA 2003
  * (geometric constraints); scores own. */

@@ -78,6 +78,7 @@ class CSalientEKF2D : public mrpt::slam::CRangeBearingKFSLAM2D, public CSlamBack
         std::optional<association::TAssociation> association;  //!< Made once, after prediction.
         std::vector<EDecision> decisions;                      //!< By measurement.
         std::vector<int> landmarks;  //!< By measurement, index in the state; -1: none.
+        std::vector<bool> confirms;  //!< By measurement: the last view that a landmark needed.
         std::vector<std::size_t> rowToObservation;  //!< Of MRPT's list of measurements.
         bool closesLoop{false};                     //!< Landmarks not seen for long were paired.
         std::vector<double> sigmas;  //!< By landmark, how vaguely it was predicted [m].
@@ -90,15 +91,20 @@ class CSalientEKF2D : public mrpt::slam::CRangeBearingKFSLAM2D, public CSlamBack
     void stepByMrpt();
     void associate();
     association::TAssociationProblem problem();
-    void holdBack(association::ELandmarkKind kind, landmarks::CWideBaselineTracker& tracker);
+    void holdBackCorners();
+    void holdBackEntities();
+    bool sees(association::ELandmarkKind kind) const;
+    EDecision told(std::size_t observation) const;
     landmarks::TSighting sightingOf(const association::TMeasurement& measurement) const;
     void enterLandmark(std::size_t observation, std::size_t index);
     void learn();
     Eigen::Matrix3d poseCovariance() const;
     void smooth();
     void anchor();
+    bool keepsHistory() const;
     void remember();
     void noteUse();
+    double largestSigma(std::size_t landmark) const;
     void relocate();
     bool isWorthAJoin(const TRelocation& found) const;
     bool join(const TAlignment& alignment);

@@ -23,6 +23,7 @@ enum class EState {
 struct TEkfOptions : public config::TStrictOptions<TEkfOptions> {
     EState state{EState::plane};
     EUpdate update{EUpdate::block};  //!< In the plane; in space it is MRPT's.
+    bool smooth{true};               //!< At the end path and map are estimated anew (block).
     bool ignoreIdentities{false};    //!< Identities in the log are not read.
     double maxRange{40};             //!< Landmarks farther away are not expected [m].
     double fieldOfView{2 * M_PI};    //!< Centred on straight ahead [rad].

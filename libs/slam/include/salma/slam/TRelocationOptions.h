@@ -11,11 +11,11 @@ namespace salma::slam {
 struct TRelocationOptions : public config::TStrictOptions<TRelocationOptions> {
     bool use{true};            //!< Look for the local map in the map that was left behind.
     double anchorSigma{M_PI};  //!< Heading less sure: state covariances anew [rad].
-    double unsure{0.5};        //!< A landmark predicted less surely is left to relocation [m].
+    double unsure{0.12};  //!< A landmark of the left map predicted less surely is not paired [m].
     double localTravel{25};  //!< Landmarks first seen within so much travel are the local map [m].
     double gap{8};           //!< Between local map and what it is compared with, at least [m].
     double every{0.5};       //!< Travel between two attempts [m].
-    double accept{5};        //!< Least score of the best alignment [nats].
+    double accept{5.5};      //!< Least score of the best alignment [nats].
     double margin{4};        //!< Least lead over the second-best one [nats].
     double driftFactor{2};   //!< Odometry may err so many times as much as it states.
     double driftOutlier{0.02};  //!< Share of runs in which the pose is lost altogether.

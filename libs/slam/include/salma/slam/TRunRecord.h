@@ -24,10 +24,12 @@ enum class EDecision { paired, created, deferred, clutter, relocated, provisiona
 enum class ESight { nothing, first, again };
 
 struct TTrajectoryRow {
-    double time{0};                                       //!< [s since 1970]
-    mrpt::poses::CPose2D pose;                            //!< T_w_r, estimated.
-    Eigen::Matrix3d covariance{Eigen::Matrix3d::Zero()};  //!< Of (x, y, heading) [m, rad].
-    mrpt::poses::CPose2D odometry;                        //!< T_o_r, odometry alone.
+    double time{0};                //!< [s since 1970]
+    mrpt::poses::CPose2D pose;     //!< T_w_r, as it is known when the run is over.
+    mrpt::poses::CPose2D running;  //!< T_w_r, as the filter had it at that time.
+    /// Of the running (x, y, heading) [m, rad].
+    Eigen::Matrix3d covariance{Eigen::Matrix3d::Zero()};
+    mrpt::poses::CPose2D odometry;  //!< T_o_r, odometry alone.
     ESight sight{ESight::nothing};
     std::optional<mrpt::poses::CPose3D> spatial;  //!< T_w_r of a filter in space.
 };
@@ -111,6 +113,7 @@ struct TRunRecord {
     std::vector<TRelocationRow> relocations;  //!< Of attempts that found something.
     std::size_t joins{0};                     //!< Relocations that took effect.
     std::size_t removed{0};                   //!< Landmarks that were looked for in vain.
+    bool smoothed{false};  //!< Path and map were estimated anew at the end, from all that was used.
     std::vector<mrpt::math::TPoint2D>
         scanPoints;  //!< Laser points at the estimated poses, thinned [m].
     std::vector<std::string> notices;
