@@ -172,7 +172,9 @@ class CMapDrawing {
             if (row.sight != sight) continue;
             if (last != nullptr && row.pose.distanceTo(last->pose) < spacing) continue;
             last = &row;
-            lines += asLine({row.pose.x(), row.pose.y()}, ellipseOf(row));
+            const TEllipse ellipse = ellipseOf(row);
+            if (!(ellipse.major > 0)) continue;  // gnuplot has a size of its own for these
+            lines += asLine({row.pose.x(), row.pose.y()}, ellipse);
         }
         ellipses("robot" + std::to_string(static_cast<int>(sight)), lines,
                  "lw 1.6 lc rgb '" + colour + "' title '" + title + "'");
