@@ -125,6 +125,35 @@ TEST(CRelocator, CountsThePictureThatShouldHaveBeenSeenUnlessSomethingHidesIt) {
     EXPECT_NEAR(scored(views) - nobodyLooked, missed, 1e-6);
 }
 
+TEST(CRelocator, TakesPrintsForSigns) {
+    CTwoPictures world;
+    world.passAt(0, false);
+    world.passAt(16, false);  // the same two pictures again
+    world.passAt(8, true);
+    const TAlignment signs = world.relocated().best;
+    EXPECT_EQ(signs.matchedPosters(), 2u);
+    EXPECT_EQ(signs.posters, 0);
+    EXPECT_GT(signs.signs, 0);
+    CTwoPictures single;
+    single.passAt(0, false);
+    single.passAt(8, true);
+    EXPECT_EQ(single.relocated().best.signs, 0);
+    EXPECT_GT(single.relocated().best.posters, 5);
+}
+
+TEST(CRelocator, NearnessProvesNothing) {
+    TAlignment alignment;
+    alignment.posters = 4;
+    alignment.corners = 20;
+    alignment.signs = 3;
+    EXPECT_EQ(alignment.score(2), 6);
+    alignment.odometry = 9;
+    EXPECT_EQ(alignment.score(2), 6);
+    EXPECT_EQ(alignment.total(), 36);
+    alignment.odometry = -3;
+    EXPECT_EQ(alignment.score(2), 3);
+}
+
 TEST(CRelocator, AsksForTheScore) {
     CTwoPictures world;
     world.passAt(0, false);

@@ -198,6 +198,50 @@ TEST(CSalientEKF2D, HoldsACornerBackUntilItIsSeenOftenEnough) {
     EXPECT_EQ(record.landmarks[0].lastTime, 3);
 }
 
+TEST(CSalientEKF2D, UsesAPosterAtOnceAndTellsItWhenItIsConfirmed) {
+    landmarks::TTrackingOptions tracking;  // two places, 5 deg apart
+    CSalientEKF2D filter({}, {}, nullptr, tracking);
+    const auto seen = [](double time, double forward, const Eigen::Vector2d& z) {
+        TStepInput input = step(time, forward, {z});
+        input.measurements[0].kind = association::ELandmarkKind::salient;
+        input.measurements[0].wallAngle = -M_PI_2 - (z[1] > 0.7 ? 1e-3 : 0);
+        input.measurements[0].wallAngleSigma = 0.02;
+        return input;
+    };
+    const auto told = [&filter] {
+        TRunRecord record;
+        filter.results(record);
+        return std::make_pair(record.associations.back().decision, record.landmarks.size());
+    };
+    // 2 m to the left of the path, 2 m ahead, then 1 m ahead, then beside the robot.
+    filter.process(seen(0, 0, {std::sqrt(8.0), M_PI_4}));
+    EXPECT_EQ(filter.landmarks().size(), 1u);
+    EXPECT_EQ(told(), std::make_pair(EDecision::provisional, std::size_t(0)));
+    filter.process(seen(1, 1, {std::sqrt(5.0), std::atan2(2, 1)}));
+    EXPECT_EQ(filter.landmarks().size(), 1u);
+    EXPECT_EQ(told(), std::make_pair(EDecision::created, std::size_t(1)));
+    filter.process(seen(2, 1, {2, M_PI_2}));
+    EXPECT_EQ(told(), std::make_pair(EDecision::paired, std::size_t(1)));
+}
+
+TEST(CSalientEKF2D, EndsWithThePathThatAllMeasurementsMake) {
+    for (const bool smooth : {true, false}) {
+        TEkfOptions options = immediateCorners();
+        options.smooth = smooth;
+        CSalientEKF2D filter(options, {});
+        filter.process(step(0, 0, {{5, 0}}));
+        filter.process(step(1, 1));               // wheels say 1 m; nothing is seen,
+        filter.process(step(2, 1, {{2.96, 0}}));  // and then that it was 2.04 m in all
+        filter.finish();
+        TRunRecord record;
+        filter.results(record);
+        EXPECT_EQ(record.smoothed, smooth);
+        EXPECT_EQ(record.trajectory[1].running.x(), 1);
+        EXPECT_EQ(record.trajectory[1].pose.x() > 1.005, smooth);
+        EXPECT_NEAR(record.trajectory[2].pose.x(), record.trajectory[2].running.x(), 1e-3);
+    }
+}
+
 TEST(CSalientEKF2D, RecordsWhatItDid) {
     CSalientEKF2D filter(immediateCorners(), {});
     TStepInput input = step(5, 0, {{3, 0.5}});
