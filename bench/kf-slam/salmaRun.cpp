@@ -18,7 +18,6 @@ TDemoRun runSalma(const TDemo& demo, const apps::TSlamConfig& config) {
     apps::CMapping(config, log, *backend).run({}, record);
     TDemoRun result;
     result.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-    backend->results(record);
     for (const auto& row : record.trajectory)
         result.path.emplace_back(row.pose.x(), row.pose.y(), row.spatial ? row.spatial->z() : 0);
     for (const auto& landmark : record.landmarks)

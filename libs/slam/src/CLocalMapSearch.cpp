@@ -3,10 +3,8 @@
 
 #include <mrpt/math/wrap2pi.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -24,15 +22,6 @@ constexpr double wallTolerance = 25 * M_PI / 180;
 constexpr double largestTurn = M_PI / 3;                       // of proposals by corners alone
 constexpr double cellLength = 0.4, cellTurn = 6 * M_PI / 180;  // in which proposals are one
 constexpr std::size_t proposalsJudged = 80, pairsOfCorners = 24;
-constexpr double slack = 0.03;        // corners are not points, sides of posters not sharp [m]
-constexpr double elsewhereFrom = 1;   // two landmarks nearer than this may be one seen twice [m]
-constexpr double priorOfTwins = 0.1;  // odds that two posters of a building are prints of one
-constexpr double leastOdds = 0.02;    // less is not looked at
-
-double gateOf(std::size_t degreesOfFreedom) {
-    return boost::math::quantile(boost::math::chi_squared(static_cast<double>(degreesOfFreedom)),
-                                 0.99);
-}
 
 double angleBetween(double a, double b) { return std::abs(mrpt::math::wrapToPi(a - b)); }
 
@@ -134,38 +123,17 @@ double CLocalMapSearch::ratioAmongLookAlikes(const TMark& local, const TMark& le
     return -std::log((1 - q) * std::exp(-plain) + q);
 }
 
-/// Fills `m_alike`.
+/// Which posters of both maps may be prints of one picture.
 void CLocalMapSearch::findLookAlikes() {
     const auto consider = [this](const TMark& a, const TMark& b, bool across) {
-        const double odds = priorOfTwins * std::exp(ratio(a, b));
-        if (!(odds > leastOdds)) return;  // false for NaN
-        m_alike[a.index].push_back({b.place, across, odds});
-        m_alike[b.index].push_back({a.place, across, odds});
+        if (salient(a) && salient(b))
+            m_prints.add({a.index, a.place}, {b.index, b.place}, across, ratio(a, b));
     };
     for (const TMarks* marks : {&m_local, &m_left})
         for (std::size_t i = 0; i < marks->size(); ++i)
-            for (std::size_t j = 0; j < i; ++j)
-                if (salient((*marks)[i]) && salient((*marks)[j]))
-                    consider((*marks)[i], (*marks)[j], false);
+            for (std::size_t j = 0; j < i; ++j) consider((*marks)[i], (*marks)[j], false);
     for (const TMark& a : m_local)
-        for (const TMark& b : m_left)
-            if (salient(a) && salient(b)) consider(a, b, true);
-}
-
-/** Whether the building probably has more things that look like a poster.
- *
- * Signs hang where the building's plan puts them: that they fall together says of two places no
- * more than that they are built alike, as corners do.
- * \param T Brings what the other map has into the frame of the mark's own. */
-bool CLocalMapSearch::repeats(const TMark& mark, const Eigen::Vector3d& T) const {
-    const auto others = m_alike.find(mark.index);
-    if (others == m_alike.end()) return false;
-    double single = 1;
-    for (const TAlike& other : others->second) {
-        const Eigen::Vector2d place = other.across ? applied(T, other.place) : other.place;
-        if ((place - mark.place).norm() > elsewhereFrom) single /= 1 + other.odds;
-    }
-    return single < 0.5;
+        for (const TMark& b : m_left) consider(a, b, true);
 }
 
 /// Whether odometry lets two landmarks be one, generously.
@@ -243,121 +211,6 @@ std::vector<Eigen::Vector3d> CLocalMapSearch::proposals() {
     for (std::size_t k = 0; k < std::min(sorted.size(), proposalsJudged); ++k)
         result.push_back(sorted[k].T);
     return result;
-}
-
-/// Nearest first, each landmark once.
-std::vector<TSameLandmark> CLocalMapSearch::matched(const Eigen::Vector3d& T, double radius) {
-    struct TOption {
-        double distance;
-        std::size_t local, left;
-    };
-    std::vector<TOption> options;
-    for (std::size_t i = 0; i < m_local.size(); ++i) {
-        const Eigen::Vector2d place = applied(T, m_local[i].place);
-        for (std::size_t j = 0; j < m_left.size(); ++j) {
-            const double distance = (m_left[j].place - place).norm();
-            if (!(distance <= radius) || !mayBeOne(m_local[i], m_left[j], T[2])) continue;
-            if (salient(m_local[i]) && !(ratio(m_local[i], m_left[j]) > -1)) continue;
-            options.push_back({distance, i, j});
-        }
-    }
-    std::stable_sort(options.begin(), options.end(),
-                     [](const TOption& a, const TOption& b) { return a.distance < b.distance; });
-    std::vector<bool> localTaken(m_local.size(), false), leftTaken(m_left.size(), false);
-    std::vector<TSameLandmark> pairs;
-    for (const TOption& option : options) {
-        if (localTaken[option.local] || leftTaken[option.left]) continue;
-        localTaken[option.local] = leftTaken[option.left] = true;
-        const TMark &a = m_local[option.local], &b = m_left[option.left];
-        TSameLandmark pair{a.index, b.index, option.distance,
-                           std::numeric_limits<double>::quiet_NaN()};
-        if (salient(a)) {
-            pair.logRatio = ratioAmongLookAlikes(a, b);
-            pair.repeats = repeats(a, inverseOf(T)) || repeats(b, T);
-        }
-        pairs.push_back(pair);
-    }
-    return pairs;
-}
-
-TAlignment CLocalMapSearch::aligned(Eigen::Vector3d T) {
-    TAlignment result;
-    for (const double widening : {2.0, 1.5, 1.0, 1.0}) {
-        result.pairs = matched(T, widening * m_options.pairRadius);
-        if (result.pairs.size() < 2) break;
-        std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> places;
-        for (const TSameLandmark& pair : result.pairs)
-            places.emplace_back(m_input.mean.segment<2>(rowOf(pair.local)),
-                                m_input.mean.segment<2>(rowOf(pair.left)));
-        const Eigen::Vector3d better = fitted(places);
-        // Two landmarks side by side do not tell the direction: the proposal stays.
-        if (angleBetween(better[2], T[2]) > 15 * M_PI / 180) break;
-        T = better;
-    }
-    result.T = T;
-    return result;
-}
-
-Eigen::MatrixXd CLocalMapSearch::covarianceOf(const std::vector<TSameLandmark>& pairs,
-                                              double turn) const {
-    const Eigen::Matrix2d R = Eigen::Rotation2Dd(turn).toRotationMatrix();
-    const RowMatrix& P = m_input.covariance;
-    const auto n = static_cast<Eigen::Index>(pairs.size());
-    Eigen::MatrixXd result = slack * slack * Eigen::MatrixXd::Identity(2 * n, 2 * n);
-    for (Eigen::Index i = 0; i < n; ++i)
-        for (Eigen::Index j = 0; j < n; ++j) {
-            const Eigen::Index a = rowOf(pairs[i].local), b = rowOf(pairs[i].left);
-            const Eigen::Index c = rowOf(pairs[j].local), d = rowOf(pairs[j].left);
-            result.block<2, 2>(2 * i, 2 * j) += R * P.block<2, 2>(a, c) * R.transpose() +
-                                                P.block<2, 2>(b, d) - R * P.block<2, 2>(a, d) -
-                                                P.block<2, 2>(b, c) * R.transpose();
-        }
-    return result;
-}
-
-/* Joint compatibility of both maps, T free: generalised least squares over all pairs. The worst
- * pair goes until the rest agrees. False if too much would have to go. */
-bool CLocalMapSearch::dropIncompatible(TAlignment& alignment) const {
-    const std::size_t before = alignment.pairs.size();
-    while (alignment.pairs.size() >= 2 && 3 * alignment.pairs.size() >= 2 * before) {
-        const auto& pairs = alignment.pairs;
-        const auto n = static_cast<Eigen::Index>(pairs.size());
-        Eigen::VectorXd r(2 * n);
-        Eigen::MatrixXd B(2 * n, 3);
-        for (Eigen::Index i = 0; i < n; ++i) {
-            const Eigen::Vector2d p =
-                applied(alignment.T, m_input.mean.segment<2>(rowOf(pairs[i].local)));
-            const Eigen::Vector2d arm = p - alignment.T.head<2>();
-            r.segment<2>(2 * i) = p - m_input.mean.segment<2>(rowOf(pairs[i].left));
-            B.middleRows<2>(2 * i) << 1, 0, -arm.y(), 0, 1, arm.x();
-        }
-        const Eigen::LLT<Eigen::MatrixXd> factor(covarianceOf(pairs, alignment.T[2]));
-        if (factor.info() != Eigen::Success) return false;
-        const Eigen::MatrixXd X = factor.solve(B);
-        const Eigen::Vector3d shift = -(B.transpose() * X).ldlt().solve(X.transpose() * r);
-        const Eigen::VectorXd left = r + B * shift;
-        const Eigen::VectorXd weighed = factor.solve(left);
-        alignment.distance2 = left.dot(weighed);
-        if (!std::isfinite(alignment.distance2)) return false;
-        if (alignment.distance2 <= gateOf(2 * pairs.size() - 3)) {
-            for (Eigen::Index i = 0; i < n; ++i)
-                alignment.pairs[i].distance = left.segment<2>(2 * i).norm();
-            alignment.T += shift;
-            alignment.T[2] = mrpt::math::wrapToPi(alignment.T[2]);
-            return true;
-        }
-        Eigen::Index worst = 0;
-        double share = -std::numeric_limits<double>::infinity();
-        for (Eigen::Index i = 0; i < n; ++i) {
-            const double own = left.segment<2>(2 * i).dot(weighed.segment<2>(2 * i));
-            if (own > share) {
-                share = own;
-                worst = i;
-            }
-        }
-        alignment.pairs.erase(alignment.pairs.begin() + worst);
-    }
-    return false;
 }
 
 }  // namespace salma::slam

@@ -4,8 +4,9 @@
 #include <salma/slam/CRelocator.h>
 
 #include <cstddef>
-#include <map>
 #include <vector>
+
+#include "CPrints.h"
 
 namespace salma::slam {
 
@@ -27,12 +28,6 @@ class CLocalMapSearch {
         std::size_t firstStep{0}, lastStep{0};
     };
     using TMarks = std::vector<TMark>;
-    /// A poster that may be another print of the same picture.
-    struct TAlike {
-        Eigen::Vector2d place{0, 0};  //!< In the frame of its own map.
-        bool across{false};           //!< Of the other map.
-        double odds{0};
-    };
 
     void split();
     bool salient(const TMark& mark) const;
@@ -40,7 +35,6 @@ class CLocalMapSearch {
     double ratio(const TMark& local, const TMark& left);
     double ratioAmongLookAlikes(const TMark& local, const TMark& left);
     void findLookAlikes();
-    bool repeats(const TMark& mark, const Eigen::Vector3d& T) const;
 
     std::vector<Eigen::Vector3d> proposals();
     bool inReach(const TMark& local, const TMark& left) const;
@@ -68,7 +62,7 @@ class CLocalMapSearch {
     const TRelocationInput& m_input;
     TRatioCache& m_ratios;
     TMarks m_local, m_left;
-    std::map<std::size_t, std::vector<TAlike>> m_alike;  //!< By index in the table.
+    CPrints m_prints;
     std::size_t m_localStart{0};         //!< First step that used a landmark of the local map.
     std::vector<std::size_t> m_glances;  //!< Scans, thinned by travel.
 };

@@ -23,6 +23,7 @@ constexpr int glancesAtCorner = 3;                         // scans that should 
 /* Corners of one wall stand and fall together, so each counts half: of log(0.75 * 16 / 1 m^2),
  * found within 0.1 m where one is found per square metre, and of log 0.25, not found. */
 constexpr double cornerFound = 1.2, cornerMissed = -0.7;
+constexpr double thereSeenOnce = 0.6, thereSeenAgain = 0.95;  // a landmark stands for a poster
 constexpr double elsewhereToo = 0.5;  // share of a building's posters whose place has one elsewhere
 constexpr double contradiction = 0.6;  // two posters nearer than this hang in one place [m]
 constexpr double leastArea = 100;      // in which a lost robot may be [m^2]
@@ -54,8 +55,8 @@ double CLocalMapSearch::missed(const TMark& mark,
         seen.wallAngle = wall - step.pose[2];
         logMissed += std::log1p(-m_detection.poster(step, seen).probability());
     }
-    // What was seen once only may not be there at all.
-    const double real = m_input.landmarks[mark.index].sightings > 1 ? 0.95 : 0.6;
+    const double real =
+        m_input.landmarks[mark.index].sightings > 1 ? thereSeenAgain : thereSeenOnce;
     const double found = real * std::min(1 - std::exp(logMissed), 1 - m_options.overlooked);
     // In another place that is built alike something hangs there, too, and is missed as often.
     return std::log((1 - found) / (1 - found * (1 - elsewhereToo)));
@@ -87,14 +88,15 @@ void CLocalMapSearch::weighPosters(TAlignment& alignment) {
         }
         if (other < 0)
             alignment.posters += other;
-        else if (!repeats(local, back))
+        else if (!m_prints.repeats({local.index, local.place}, back))
             alignment.posters += missed(local, T, 0, m_localStart);
     }
     for (const TMark& left : m_left) {
         if (!salient(left) || matchedMarks.count(left.index) != 0 ||
             contradicted.count(left.index) != 0)
             continue;
-        if (!repeats(left, T)) alignment.posters += missed(left, back, m_localStart, end);
+        if (!m_prints.repeats({left.index, left.place}, T))
+            alignment.posters += missed(left, back, m_localStart, end);
     }
 }
 

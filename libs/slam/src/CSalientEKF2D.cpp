@@ -137,6 +137,7 @@ TAssociationProblem CSalientEKF2D::problem() {
     result.measurements = m_now.input.measurements;
     result.predictionCovariance = predictionCovariance(mean, covariance);
     const double halfView = m_ekf.fieldOfView / 2;
+    const bool hasPoster = m_landmarks.hasPoster();
     for (std::size_t k = 0; k < m_landmarks.size(); ++k) {
         association::TPredictedLandmark expected = m_landmarks.expected(k, heading());
         const auto row = static_cast<Eigen::Index>(2 * k);
@@ -146,7 +147,8 @@ TAssociationProblem CSalientEKF2D::problem() {
             3 * result.predictionCovariance.diagonal().segment<2>(row).cwiseSqrt();
         const double sigma = std::max(slack[0], expected.z[0] * slack[1]) / 3;
         m_now.sigmas.push_back(sigma);
-        expected.visible = sigma <= largestSigma(k) && expected.z[0] <= m_ekf.maxRange + slack[0] &&
+        expected.visible = sigma <= largestSigma(k, hasPoster) &&
+                           expected.z[0] <= m_ekf.maxRange + slack[0] &&
                            std::abs(expected.z[1]) <= halfView + slack[1];
         result.landmarks.push_back(expected);
     }

@@ -65,10 +65,10 @@ void CSalientEKF2D::noteUse() {
  *
  * Where a landmark was not used for long, another one like it may come into view. A map without a
  * poster has nothing by which relocation could tell them apart. */
-double CSalientEKF2D::largestSigma(std::size_t landmark) const {
+double CSalientEKF2D::largestSigma(std::size_t landmark, bool hasPoster) const {
     if (!m_relocates) return std::numeric_limits<double>::infinity();
     const double unsure = m_care.relocation.unsure, nearby = std::max(unsure, unsureNearby);
-    if (m_history.empty() || !m_landmarks.hasPoster()) return nearby;
+    if (m_history.empty() || !hasPoster) return nearby;
     const auto last = m_lastUsed.find(m_landmarks[landmark].id);
     const bool isLeftBehind =
         last == m_lastUsed.end() || last->second < m_history.back().travel - m_care.relocation.gap;

@@ -224,6 +224,32 @@ TEST(CSalientEKF2D, UsesAPosterAtOnceAndTellsItWhenItIsConfirmed) {
     EXPECT_EQ(told(), std::make_pair(EDecision::paired, std::size_t(1)));
 }
 
+TEST(CSalientEKF2D, LeavesACornerToRelocationOnceItWasLeftBehind) {
+    // A corner is seen, and again after some travel, when its place is unsure by 0.2 m.
+    const auto seenAgain = [](double travel, bool hasPoster) {
+        CSalientEKF2D filter(immediateCorners(), {});
+        TStepInput first = step(0, 0, {{20, 0}});
+        if (hasPoster) {
+            auto poster = step(0, 0, {{3, 1}}).measurements[0];
+            poster.kind = association::ELandmarkKind::salient;
+            poster.patch = std::make_shared<observations::TPatch>();
+            first.measurements.push_back(poster);
+            first.spots.resize(2);
+        }
+        filter.process(first);
+        TStepInput second = step(1, travel);
+        second.increment.cov(0, 0) = 0.04;
+        filter.process(second);
+        filter.process(step(2, 0, {{20 - travel, 0}}));
+        TRunRecord record;
+        filter.results(record);
+        return record.associations.back().decision;
+    };
+    EXPECT_EQ(seenAgain(10, true), EDecision::created);
+    EXPECT_EQ(seenAgain(5, true), EDecision::paired) << "it was just used";
+    EXPECT_EQ(seenAgain(10, false), EDecision::paired) << "nothing could tell it from others";
+}
+
 TEST(CSalientEKF2D, EndsWithThePathThatAllMeasurementsMake) {
     for (const bool smooth : {true, false}) {
         TEkfOptions options = immediateCorners();

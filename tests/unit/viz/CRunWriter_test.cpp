@@ -92,6 +92,20 @@ TEST(CRunWriter, NamesEveryReason) {
     EXPECT_THROW(nameOf(static_cast<EReason>(names.size())), std::invalid_argument);
 }
 
+TEST(CRunWriter, WritesTheRunningPathWhereItIsNotTheFinalOne) {
+    TRunRecord record;
+    record.trajectory.resize(1);
+    record.trajectory[0].time = 12.25;
+    record.trajectory[0].running = mrpt::poses::CPose2D(1.5, -2, 0);
+    const test::CTemporaryFolder plain, smoothed;
+    CRunWriter(plain.path()).writeTables(record);
+    EXPECT_FALSE(std::filesystem::exists(plain / "running.tum"));
+    record.smoothed = true;
+    CRunWriter(smoothed.path()).writeTables(record);
+    EXPECT_EQ(test::readFile(smoothed / "running.tum"), "12.250000 1.5 -2 0 0 0 0 1\n");
+    EXPECT_EQ(test::readFile(smoothed / "trajectory.tum"), "12.250000 0 0 0 0 0 0 1\n");
+}
+
 TEST(CRunWriter, WritesTablesThatReadBackToTheRecord) {
     const auto run = test::hallwayRun();
     const auto& record = run.record;

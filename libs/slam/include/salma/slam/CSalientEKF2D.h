@@ -104,7 +104,7 @@ class CSalientEKF2D : public mrpt::slam::CRangeBearingKFSLAM2D, public CSlamBack
     bool keepsHistory() const;
     void remember();
     void noteUse();
-    double largestSigma(std::size_t landmark) const;
+    double largestSigma(std::size_t landmark, bool hasPoster) const;
     void relocate();
     bool isWorthAJoin(const TRelocation& found) const;
     bool join(const TAlignment& alignment);
