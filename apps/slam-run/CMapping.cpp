@@ -41,7 +41,8 @@ CMapping::CMapping(const TSlamConfig& config,
       m_lines(config.lines),
       m_corners(config.corners),
       m_walls(config.wallOdometry),
-      m_noise(config.odometry) {}
+      m_noise(config.odometry),
+      m_scale(config.odometry) {}
 
 std::vector<CMapping::TEvent> CMapping::events(
     const std::vector<CObservationSalientLandmarks::Ptr>& records) const {
@@ -144,7 +145,8 @@ void CMapping::noteView(const TEvent& event, slam::TStepInput& step) {
 
 mrpt::poses::CPosePDFGaussian CMapping::incrementTo(const TEvent& event) {
     if (event.increment) return *event.increment;
-    if (m_log.hasOdometry) return m_noise.increment(event.odometry - m_lastOdometry);
+    if (m_log.hasOdometry)
+        return m_noise.increment(m_scale.corrected(event.odometry - m_lastOdometry));
     const double seconds = std::max(0.0, event.time - m_lastTime);
     mrpt::poses::CPosePDFGaussian unknown;
     const double position = m_config.run.unknownMotion * std::sqrt(seconds);
@@ -206,6 +208,9 @@ void CMapping::run(const std::vector<CObservationSalientLandmarks::Ptr>& records
         else
             m_walls.advance(step.increment);
         m_backend.process(step);
+        const slam::TStepMotion motion = m_backend.motion();
+        m_walls.advance(mrpt::poses::CPosePDFGaussian(motion.slip));
+        m_scale.learn(event.odometry - m_lastOdometry, motion);
         m_lastTime = event.time;
         m_lastOdometry = event.odometry;
         for (const auto& o : event.observations)

@@ -8,6 +8,7 @@
 #include <salma/observations/CLogReader.h>
 #include <salma/observations/CObservationSalientLandmarks.h>
 #include <salma/slam/COdometryNoise.h>
+#include <salma/slam/COdometryScale.h>
 #include <salma/slam/CSlamBackend.h>
 
 #include <optional>
@@ -58,6 +59,7 @@ class CMapping {
     laser::CCornerExtractor m_corners;
     laser::CWallOdometry m_walls;
     slam::COdometryNoise m_noise;
+    slam::COdometryScale m_scale;
     std::size_t m_steps{0};
     std::vector<TSeenPoint> m_points;                //!< By step.
     double m_lastTime{0};                            //!< Of the last step [s].

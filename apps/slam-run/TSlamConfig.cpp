@@ -25,6 +25,7 @@ void forEachSection(CONFIG& c, VISITOR visitor) {
     visitor("ekf", c.ekf);
     visitor("detection", c.detection);
     visitor("relocation", c.relocation);
+    visitor("slip", c.slip);
     visitor("rbpf", c.rbpf);
     visitor("odometry", c.odometry);
     visitor("range_bearing", c.rangeBearing);

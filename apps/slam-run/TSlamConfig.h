@@ -15,6 +15,7 @@
 #include <salma/slam/TEkfOptions.h>
 #include <salma/slam/TRbpfOptions.h>
 #include <salma/slam/TRelocationOptions.h>
+#include <salma/slam/TSlipOptions.h>
 #include <salma/slam/rangeBearing.h>
 
 #include <cmath>
@@ -53,6 +54,7 @@ struct TSlamConfig {
     slam::TEkfOptions ekf;
     slam::TDetectionOptions detection;
     slam::TRelocationOptions relocation;
+    slam::TSlipOptions slip;
     slam::TRbpfOptions rbpf;
     slam::TOdometryOptions odometry;
     slam::TRangeBearingOptions rangeBearing;

@@ -67,7 +67,7 @@ std::unique_ptr<slam::CSlamBackend> createBackend(const TSlamConfig& config) {
         [matcher](const observations::TPatch& a, const observations::TPatch& b) {
             return matcher->match(a, b).logLikelihoodRatio;
         },
-        config.tracking, slam::TMapCare{config.detection, config.relocation});
+        config.tracking, slam::TMapCare{config.detection, config.relocation, config.slip});
 }
 
 std::vector<std::string> backendNames() { return namesOf(kBackends); }

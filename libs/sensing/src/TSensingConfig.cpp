@@ -11,9 +11,9 @@ TSensingConfig TSensingConfig::load(const std::string& file) {
     const auto ini = config::openStrict(file);
     TSensingConfig loaded;
     // Sections about what happens after seeing.
-    std::vector<std::string> known{"run",      "corners",      "wall_odometry", "association",
-                                   "ekf",      "detection",    "relocation",    "rbpf",
-                                   "odometry", "range_bearing"};
+    std::vector<std::string> known{"run",  "corners",   "wall_odometry", "association",
+                                   "ekf",  "detection", "relocation",    "slip",
+                                   "rbpf", "odometry",  "range_bearing"};
     const auto read = [&](const std::string& section, auto& options) {
         known.push_back(section);
         options.loadFromConfigFile(*ini, section);

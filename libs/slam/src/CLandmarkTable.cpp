@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 namespace salma::slam {
 
@@ -34,6 +36,14 @@ int CLandmarkTable::add(const association::TMeasurement& measurement, double tim
     m_nextId = std::max(m_nextId, landmark.id + 1);
     m_landmarks.push_back(landmark);
     return landmark.id;
+}
+
+std::size_t CLandmarkTable::indexOf(int id) const {
+    const auto found = std::find_if(m_landmarks.begin(), m_landmarks.end(),
+                                    [id](const TLandmark& landmark) { return landmark.id == id; });
+    if (found == m_landmarks.end())
+        throw std::invalid_argument("The map has no landmark " + std::to_string(id));
+    return static_cast<std::size_t>(found - m_landmarks.begin());
 }
 
 void CLandmarkTable::setFirst(std::size_t index,

@@ -32,9 +32,10 @@ Eigen::Index rowOf(std::size_t landmark) { return 3 + 2 * static_cast<Eigen::Ind
 CLocalMapSearch::CLocalMapSearch(const TRelocationOptions& options,
                                  const CDetectionModel& detection,
                                  const TRelocationInput& input,
+                                 double since,
                                  TRatioCache& ratios)
     : m_options(options), m_detection(detection), m_input(input), m_ratios(ratios) {
-    split();
+    split(since);
     double last = -std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < input.history.size(); ++k) {
         if (!input.history[k].scanned || input.history[k].travel < last + 0.4) continue;
@@ -44,7 +45,7 @@ CLocalMapSearch::CLocalMapSearch(const TRelocationOptions& options,
 }
 
 /// Into the local map and the one left behind; what lies between belongs to neither.
-void CLocalMapSearch::split() {
+void CLocalMapSearch::split(double since) {
     const CPathHistory& history = m_input.history;
     std::map<int, std::pair<std::size_t, std::size_t>> steps;
     for (std::size_t k = 0; k < history.size(); ++k)
@@ -52,7 +53,6 @@ void CLocalMapSearch::split() {
             const auto [entry, isNew] = steps.insert({used.landmark, {k, k}});
             if (!isNew) entry->second.second = k;
         }
-    const double now = history.back().travel;
     TMarks others;
     m_localStart = history.size();
     for (std::size_t i = 0; i < m_input.landmarks.size(); ++i) {
@@ -60,7 +60,7 @@ void CLocalMapSearch::split() {
         if (found == steps.end()) continue;
         const TMark mark{i, m_input.mean.segment<2>(rowOf(i)), found->second.first,
                          found->second.second};
-        if (history[mark.firstStep].travel < now - m_options.localTravel) {
+        if (history[mark.firstStep].travel < since) {
             others.push_back(mark);
         } else {
             m_local.push_back(mark);

@@ -16,9 +16,13 @@ class CLocalMapSearch {
     CLocalMapSearch(const TRelocationOptions& options,
                     const CDetectionModel& detection,
                     const TRelocationInput& input,
+                    double since,
                     TRatioCache& ratios);
 
+    /// The best alignment and its margin; without pairs if there is none.
     TRelocation run();
+    /// Both maps as they lie.
+    TAlignment asTheyLie(const TAlignment& before);
 
  private:
     /// A landmark of either map.
@@ -28,8 +32,12 @@ class CLocalMapSearch {
         std::size_t firstStep{0}, lastStep{0};
     };
     using TMarks = std::vector<TMark>;
+    /// Of the history, the first and the one after the last.
+    struct TSteps {
+        std::size_t from{0}, to{0};
+    };
 
-    void split();
+    void split(double since);
     bool salient(const TMark& mark) const;
     bool mayBeOne(const TMark& local, const TMark& left, double turn) const;
     double ratio(const TMark& local, const TMark& left);
@@ -39,7 +47,10 @@ class CLocalMapSearch {
     std::vector<Eigen::Vector3d> proposals();
     bool inReach(const TMark& local, const TMark& left) const;
 
-    TAlignment aligned(Eigen::Vector3d T);
+    std::vector<TAlignment> aligned(Eigen::Vector3d T);
+    std::vector<TAlignment> passes(const TAlignment& alignment) const;
+    bool isOf(const TAlignment& alignment, const TMark& left) const;
+    double travelOf(std::size_t step) const { return m_input.history[step].travel; }
     std::vector<TSameLandmark> matched(const Eigen::Vector3d& T, double radius);
     /// Covariance of (local after the turn - left) of all pairs [2n x 2n].
     Eigen::MatrixXd covarianceOf(const std::vector<TSameLandmark>& pairs, double turn) const;
@@ -48,14 +59,12 @@ class CLocalMapSearch {
     void weighPosters(TAlignment& alignment);
     void weighCorners(TAlignment& alignment) const;
     void weighOdometry(TAlignment& alignment) const;
-    double missed(const TMark& mark,
-                  const Eigen::Vector3d& T,
-                  std::size_t fromStep,
-                  std::size_t toStep) const;
-    bool cornerWasLookedAt(const Eigen::Vector2d& place,
-                           std::size_t fromStep,
-                           std::size_t toStep) const;
-    bool sameAlignment(const TAlignment& a, const TAlignment& b) const;
+    double missed(const TMark& mark, const Eigen::Vector3d& T, const TSteps& steps) const;
+    bool cornerWasLookedAt(const Eigen::Vector2d& place, const TSteps& steps) const;
+    TSteps leftSteps(const TAlignment& alignment) const;
+    TSteps localSteps() const { return {m_localStart, m_input.history.size()}; }
+    bool sameMotion(const TAlignment& a, const TAlignment& b) const;
+    static bool samePass(const TAlignment& a, const TAlignment& b);
 
     const TRelocationOptions& m_options;
     const CDetectionModel& m_detection;

@@ -15,7 +15,8 @@ namespace salma::slam {
 
 namespace {
 
-constexpr double slack = 0.03;  // corners are not points, sides of posters not sharp [m]
+constexpr double longestStretch = 15;  // of the way between two pairs of one pass [m]
+constexpr double slack = 0.03;         // corners are not points, sides of posters not sharp [m]
 
 double gateOf(std::size_t degreesOfFreedom) {
     return boost::math::quantile(boost::math::chi_squared(static_cast<double>(degreesOfFreedom)),
@@ -64,7 +65,58 @@ std::vector<TSameLandmark> CLocalMapSearch::matched(const Eigen::Vector3d& T, do
     return pairs;
 }
 
-TAlignment CLocalMapSearch::aligned(Eigen::Vector3d T) {
+/* A robot that drives along a way which it has driven before meets what it saw then in the same
+ * order, or in the opposite one. Where the landmarks that fall together jump to another time, that
+ * is another pass, perhaps on another floor: one may be true and the other not. */
+std::vector<TAlignment> CLocalMapSearch::passes(const TAlignment& alignment) const {
+    struct TMet {
+        TSameLandmark pair;
+        double local, leftFrom, leftTo;  // travel
+        std::size_t pass;
+    };
+    const auto markOf = [](const TMarks& marks, std::size_t index) {
+        return *std::find_if(marks.begin(), marks.end(),
+                             [index](const TMark& mark) { return mark.index == index; });
+    };
+    std::vector<TMet> met;
+    for (const TSameLandmark& pair : alignment.pairs) {
+        const TMark left = markOf(m_left, pair.left);
+        met.push_back({pair, travelOf(markOf(m_local, pair.local).firstStep),
+                       travelOf(left.firstStep), travelOf(left.lastStep), met.size()});
+    }
+    for (std::size_t i = 0; i < met.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j) {
+            const double local = std::abs(met[i].local - met[j].local);
+            const double left =
+                std::max(met[i].leftFrom, met[j].leftFrom) - std::min(met[i].leftTo, met[j].leftTo);
+            if (local > longestStretch || left > local + m_options.gap) continue;
+            const std::size_t gone = met[i].pass, kept = met[j].pass;
+            for (TMet& other : met)
+                if (other.pass == gone) other.pass = kept;
+        }
+    std::vector<TAlignment> result;
+    for (std::size_t pass = 0; pass < met.size(); ++pass) {
+        TAlignment one;
+        one.T = alignment.T;
+        one.odometry = alignment.odometry;
+        one.leftFrom = std::numeric_limits<double>::infinity();
+        for (const TMet& each : met) {
+            if (each.pass != pass) continue;
+            one.pairs.push_back(each.pair);
+            one.leftFrom = std::min(one.leftFrom, each.leftFrom - m_options.gap);
+            one.leftTo = std::max(one.leftTo, each.leftTo + m_options.gap);
+        }
+        if (one.pairs.size() >= 2) result.push_back(std::move(one));
+    }
+    return result;
+}
+
+bool CLocalMapSearch::isOf(const TAlignment& alignment, const TMark& left) const {
+    return travelOf(left.firstStep) <= alignment.leftTo &&
+           travelOf(left.lastStep) >= alignment.leftFrom;
+}
+
+std::vector<TAlignment> CLocalMapSearch::aligned(Eigen::Vector3d T) {
     TAlignment result;
     for (const double widening : {2.0, 1.5, 1.0, 1.0}) {
         result.pairs = matched(T, widening * m_options.pairRadius);
@@ -79,7 +131,7 @@ TAlignment CLocalMapSearch::aligned(Eigen::Vector3d T) {
         T = better;
     }
     result.T = T;
-    return result;
+    return passes(result);
 }
 
 Eigen::MatrixXd CLocalMapSearch::covarianceOf(const std::vector<TSameLandmark>& pairs,

@@ -26,7 +26,9 @@ constexpr double cornerFound = 1.2, cornerMissed = -0.7;
 constexpr double thereSeenOnce = 0.6, thereSeenAgain = 0.95;  // a landmark stands for a poster
 constexpr double elsewhereToo = 0.5;  // share of a building's posters whose place has one elsewhere
 constexpr double contradiction = 0.6;  // two posters nearer than this hang in one place [m]
-constexpr double leastArea = 100;      // in which a lost robot may be [m^2]
+constexpr double oneMotion = 0.6, oneTurn = 10 * M_PI / 180;  // at the robot [m], [rad]
+constexpr std::size_t alignmentsJudged = 16;
+constexpr double leastArea = 100;  // in which a lost robot may be [m^2]
 
 Eigen::Index rowOf(std::size_t landmark) { return 3 + 2 * static_cast<Eigen::Index>(landmark); }
 
@@ -42,12 +44,11 @@ Eigen::Vector2d seenFrom(const Eigen::Vector3d& pose, const Eigen::Vector2d& poi
  * \param T Brings the poster into the frame of the steps. */
 double CLocalMapSearch::missed(const TMark& mark,
                                const Eigen::Vector3d& T,
-                               std::size_t fromStep,
-                               std::size_t toStep) const {
+                               const TSteps& steps) const {
     const Eigen::Vector2d place = applied(T, mark.place);
     const double wall = m_input.landmarks[mark.index].wallAngle + T[2];
     double logMissed = 0;
-    for (std::size_t k = fromStep; k < toStep; ++k) {
+    for (std::size_t k = steps.from; k < steps.to; ++k) {
         const TPastStep& step = m_input.history[k];
         if (!step.camera || (step.pose.head<2>() - place).norm() > farthestPoster) continue;
         TBelievedPlace seen;
@@ -73,39 +74,50 @@ void CLocalMapSearch::weighPosters(TAlignment& alignment) {
     }
     const Eigen::Vector3d& T = alignment.T;
     const Eigen::Vector3d back = inverseOf(T);
-    const std::size_t end = m_input.history.size();
     std::set<std::size_t> contradicted;
     for (const TMark& local : m_local) {
         if (!salient(local) || matchedMarks.count(local.index) != 0) continue;
         double other = 0;
         for (const TMark& left : m_left) {
-            if (!salient(left) || matchedMarks.count(left.index) != 0 ||
+            if (!salient(left) || !isOf(alignment, left) || matchedMarks.count(left.index) != 0 ||
                 (left.place - applied(T, local.place)).norm() > contradiction ||
                 !mayBeOne(local, left, T[2]))
                 continue;
             other = std::min(other, ratio(local, left));
             contradicted.insert(left.index);
         }
-        if (other < 0)
+        if (other < 0) {
             alignment.posters += other;
-        else if (!m_prints.repeats({local.index, local.place}, back))
-            alignment.posters += missed(local, T, 0, m_localStart);
+        } else if (!m_prints.repeats({local.index, local.place}, back)) {
+            const double x = missed(local, T, leftSteps(alignment));
+            alignment.posters += x;
+        }
     }
     for (const TMark& left : m_left) {
-        if (!salient(left) || matchedMarks.count(left.index) != 0 ||
+        if (!salient(left) || !isOf(alignment, left) || matchedMarks.count(left.index) != 0 ||
             contradicted.count(left.index) != 0)
             continue;
-        if (!m_prints.repeats({left.index, left.place}, T))
-            alignment.posters += missed(left, back, m_localStart, end);
+        if (!m_prints.repeats({left.index, left.place}, T)) {
+            const double x = missed(left, back, localSteps());
+            alignment.posters += x;
+        }
     }
 }
 
-bool CLocalMapSearch::cornerWasLookedAt(const Eigen::Vector2d& place,
-                                        std::size_t fromStep,
-                                        std::size_t toStep) const {
+/// Steps of the pass that the local map is laid onto.
+CLocalMapSearch::TSteps CLocalMapSearch::leftSteps(const TAlignment& alignment) const {
+    TSteps result{m_localStart, m_localStart};
+    for (std::size_t k = m_localStart; k-- > 0;) {
+        if (travelOf(k) > alignment.leftTo) result.to = k;
+        if (travelOf(k) >= alignment.leftFrom) result.from = k;
+    }
+    return result;
+}
+
+bool CLocalMapSearch::cornerWasLookedAt(const Eigen::Vector2d& place, const TSteps& steps) const {
     int glances = 0;
     for (const std::size_t k : m_glances) {
-        if (k < fromStep || k >= toStep) continue;
+        if (k < steps.from || k >= steps.to) continue;
         const TPastStep& step = m_input.history[k];
         const double reach = step.laser ? farthestCorner : 0.8 * m_input.maxRange;
         if ((step.pose.head<2>() - place).norm() > reach) continue;
@@ -134,11 +146,11 @@ void CLocalMapSearch::weighCorners(TAlignment& alignment) const {
     const Eigen::Vector3d back = inverseOf(alignment.T);
     for (const TMark& local : m_local)
         if (!salient(local) && matchedMarks.count(local.index) == 0 &&
-            cornerWasLookedAt(applied(alignment.T, local.place), 0, m_localStart))
+            cornerWasLookedAt(applied(alignment.T, local.place), leftSteps(alignment)))
             alignment.corners += cornerMissed;
     for (const TMark& left : m_left)
-        if (!salient(left) && matchedMarks.count(left.index) == 0 &&
-            cornerWasLookedAt(applied(back, left.place), m_localStart, m_input.history.size()))
+        if (!salient(left) && isOf(alignment, left) && matchedMarks.count(left.index) == 0 &&
+            cornerWasLookedAt(applied(back, left.place), localSteps()))
             alignment.corners += cornerMissed;
 }
 
@@ -184,10 +196,37 @@ void CLocalMapSearch::weighOdometry(TAlignment& alignment) const {
         ((1 - m_options.driftOutlier) * density + m_options.driftOutlier * anywhere) / anywhere);
 }
 
-bool CLocalMapSearch::sameAlignment(const TAlignment& a, const TAlignment& b) const {
+bool CLocalMapSearch::sameMotion(const TAlignment& a, const TAlignment& b) const {
     const Eigen::Vector2d here = m_input.mean.head<2>();
-    return (applied(a.T, here) - applied(b.T, here)).norm() < 0.6 &&
-           std::abs(mrpt::math::wrapToPi(a.T[2] - b.T[2])) < 10 * M_PI / 180;
+    return (applied(a.T, here) - applied(b.T, here)).norm() < oneMotion &&
+           std::abs(mrpt::math::wrapToPi(a.T[2] - b.T[2])) < oneTurn;
+}
+
+bool CLocalMapSearch::samePass(const TAlignment& a, const TAlignment& b) {
+    return a.leftFrom <= b.leftTo && b.leftFrom <= a.leftTo;
+}
+
+TAlignment CLocalMapSearch::asTheyLie(const TAlignment& before) {
+    findLookAlikes();
+    TAlignment all = before;
+    all.T.setZero();
+    all.pairs = matched(all.T, m_options.pairRadius);
+    const auto shared = [&before](const TAlignment& pass) {
+        return std::count_if(pass.pairs.begin(), pass.pairs.end(), [&before](const auto& pair) {
+            return std::any_of(before.pairs.begin(), before.pairs.end(), [&pair](const auto& own) {
+                return own.local == pair.local && own.left == pair.left;
+            });
+        });
+    };
+    const auto candidates = passes(all);
+    if (candidates.empty()) return before;
+    TAlignment result = *std::max_element(
+        candidates.begin(), candidates.end(),
+        [&](const TAlignment& a, const TAlignment& b) { return shared(a) < shared(b); });
+    weighPosters(result);
+    weighCorners(result);
+    result.T = before.T;
+    return result;
 }
 
 TRelocation CLocalMapSearch::run() {
@@ -195,17 +234,13 @@ TRelocation CLocalMapSearch::run() {
     if (m_local.size() < 2 || m_left.size() < 2) return result;
     findLookAlikes();
     std::vector<TAlignment> alignments;
-    for (const Eigen::Vector3d& T : proposals()) {
-        TAlignment alignment = aligned(T);
-        if (alignment.pairs.size() < 2 ||
-            std::any_of(alignments.begin(), alignments.end(), [&](const TAlignment& other) {
-                return sameAlignment(alignment, other) &&
-                       other.pairs.size() >= alignment.pairs.size();
-            }))
-            continue;
-        alignments.push_back(std::move(alignment));
-    }
-    result.alignments = alignments.size();
+    for (const Eigen::Vector3d& T : proposals())
+        for (TAlignment& alignment : aligned(T))
+            if (std::none_of(alignments.begin(), alignments.end(), [&](const TAlignment& other) {
+                    return sameMotion(alignment, other) && samePass(alignment, other) &&
+                           other.pairs.size() >= alignment.pairs.size();
+                }))
+                alignments.push_back(std::move(alignment));
     const auto promise = [](const TAlignment& a) {
         double sum = 0;
         for (const TSameLandmark& pair : a.pairs)
@@ -215,7 +250,7 @@ TRelocation CLocalMapSearch::run() {
     std::stable_sort(
         alignments.begin(), alignments.end(),
         [&](const TAlignment& a, const TAlignment& b) { return promise(a) > promise(b); });
-    if (alignments.size() > 16) alignments.resize(16);
+    if (alignments.size() > alignmentsJudged) alignments.resize(alignmentsJudged);
     std::vector<TAlignment> sound;
     for (TAlignment& alignment : alignments) {
         if (!dropIncompatible(alignment)) continue;
@@ -224,23 +259,16 @@ TRelocation CLocalMapSearch::run() {
         weighOdometry(alignment);
         sound.push_back(std::move(alignment));
     }
-    if (sound.empty()) return result;
     std::stable_sort(sound.begin(), sound.end(), [](const TAlignment& a, const TAlignment& b) {
         return a.total() > b.total();
     });
+    if (sound.empty()) return result;
+    // In another pass the same motion is no rival: the robot may have been here twice.
     result.best = sound.front();
     result.margin = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 1; k < sound.size(); ++k)
-        if (!sameAlignment(sound[k], result.best)) {
-            result.margin = result.best.total() - sound[k].total();
-            break;
-        }
-    if (!(result.best.score(m_options.geometryCap) >= m_options.accept))
-        result.outcome = ERelocation::unproved;
-    else if (!(result.margin >= m_options.margin))
-        result.outcome = ERelocation::ambiguous;
-    else
-        result.outcome = ERelocation::found;
+    for (const TAlignment& other : sound)
+        if (!sameMotion(other, result.best))
+            result.margin = std::min(result.margin, result.best.total() - other.total());
     return result;
 }
 

@@ -10,6 +10,8 @@ void TOdometryOptions::visit(config::COptionVisitor& v) {
              "standard deviation along the path after one metre, growing with its square root");
     v.number("across_per_metre_m", acrossPerMetre, config::atLeast(0),
              "standard deviation sideways after one metre");
+    v.number("scale_sigma", scaleSigma, config::between(0, 0.5),
+             "standard deviation of the length of a metre, learned from landmarks; 0: not learned");
     v.degrees("heading_per_metre_deg", headingPerMetre, config::atLeast(0),
               "standard deviation of the heading after one metre");
     v.degrees("heading_per_radian_deg", headingPerRadian, config::atLeast(0),

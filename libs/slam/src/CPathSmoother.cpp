@@ -210,7 +210,8 @@ CPathSmoother::CPathSmoother(int maxIterations) : m_maxIterations(maxIterations)
 
 TSmoothed CPathSmoother::smooth(const CPathHistory& history,
                                 const std::vector<int>& ids,
-                                const std::vector<Eigen::Vector2d>& start) const {
+                                const std::vector<Eigen::Vector2d>& start,
+                                bool withCovariance) const {
     if (history.empty()) throw std::invalid_argument("A path without steps cannot be estimated");
     const CNormalEquations equations(history, ids);
     Eigen::VectorXd x(equations.size());
@@ -256,7 +257,7 @@ TSmoothed CPathSmoother::smooth(const CPathHistory& history,
         result.poses.push_back(x.segment<3>(3 * static_cast<Eigen::Index>(k)));
     result.mean = x.tail(x.size() - lastPose);
     result.misfit = equations.misfit(x, ids.size());
-    result.covariance = covarianceOf(factor, lastPose);
+    if (withCovariance) result.covariance = covarianceOf(factor, lastPose);
     if (!result.covariance.allFinite())
         throw std::runtime_error("The covariance of the path is not finite");
     return result;

@@ -23,7 +23,30 @@ CRelocator::CRelocator(const TRelocationOptions& options, const TDetectionOption
 }
 
 TRelocation CRelocator::find(const TRelocationInput& input) {
-    return CLocalMapSearch(m_options, m_detection, input, m_ratios).run();
+    const double since = input.history.back().travel - m_options.localTravel;
+    TRelocation result = CLocalMapSearch(m_options, m_detection, input, since, m_ratios).run();
+    if (result.best.pairs.empty()) return result;
+    if (!(result.best.score(m_options.geometryCap) >= m_options.propose))
+        result.outcome = ERelocation::unproved;
+    else if (!(result.margin >= m_options.margin))
+        result.outcome = ERelocation::ambiguous;
+    else
+        result.outcome = ERelocation::found;
+    return result;
+}
+
+TAlignment CRelocator::extended(const TRelocationInput& laid, const TAlignment& alignment) {
+    double leftEnd = 0;
+    for (const TSameLandmark& pair : alignment.pairs) {
+        const auto steps = laid.history.stepsOf(laid.landmarks[pair.left].id);
+        leftEnd = std::max(leftEnd, laid.history[steps->second].travel);
+    }
+    return CLocalMapSearch(m_options, m_detection, laid, leftEnd + m_options.gap, m_ratios)
+        .asTheyLie(alignment);
+}
+
+bool CRelocator::proves(const TAlignment& alignment) const {
+    return alignment.score(m_options.geometryCap) >= m_options.accept;
 }
 
 }  // namespace salma::slam

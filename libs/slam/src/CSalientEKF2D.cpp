@@ -49,6 +49,8 @@ CSalientEKF2D::CSalientEKF2D(const TEkfOptions& ekf,
                   {ekf.maxRange, ekf.fieldOfView / 2, association.detectionProbability}),
       m_relocates(care.relocation.use && ekf.update == EUpdate::block &&
                   association.method == association::EMethod::saliency),
+      m_explainsSlips(care.slip.use && ekf.update == EUpdate::block &&
+                      association.method == association::EMethod::saliency),
       m_relocator(care.relocation, care.detection) {
     m_ekf.validate();
 }
@@ -85,10 +87,13 @@ void CSalientEKF2D::process(const TStepInput& step) {
     m_now.input = step;
     if (m_ekf.ignoreIdentities)
         for (TMeasurement& measurement : m_now.input.measurements) measurement.identity.reset();
+    const mrpt::poses::CPose2D before(m_xkk[0], m_xkk[1], m_xkk[2]);
     if (m_ekf.update == EUpdate::block)
         stepByBlock();
     else
         stepByMrpt();
+    m_now.motion.motion = mrpt::poses::CPose2D(m_xkk[0], m_xkk[1], m_xkk[2]) - before;
+    m_now.motion.isKnown = m_explainsSlips && tracksLandmarks();
     learn();
     if (keepsHistory()) remember();
     if (m_relocates) {
@@ -123,19 +128,25 @@ void CSalientEKF2D::stepByBlock() {
     }
 }
 
+/// Whether this step's place is told by landmarks: by two, so that a wrong one does not go unseen.
+bool CSalientEKF2D::tracksLandmarks() const {
+    return std::count(m_now.decisions.begin(), m_now.decisions.end(), EDecision::paired) >= 2;
+}
+
 void CSalientEKF2D::enterLandmark(std::size_t observation, std::size_t index) {
     const int id = m_landmarks.add(m_now.input.measurements[observation], m_now.input.time);
     m_IDs.insert(id, static_cast<unsigned>(index));
     m_now.landmarks[observation] = static_cast<int>(index);
 }
 
-TAssociationProblem CSalientEKF2D::problem() {
+CSalientEKF2D::TJudgement CSalientEKF2D::judged() const {
     const auto size = static_cast<Eigen::Index>(m_xkk.size());
     const Eigen::Map<const Eigen::VectorXd> mean(&m_xkk[0], size);
     const Eigen::Map<const RowMatrix> covariance(&m_pkk(0, 0), size, size);
-    TAssociationProblem result;
-    result.measurements = m_now.input.measurements;
-    result.predictionCovariance = predictionCovariance(mean, covariance);
+    TJudgement result;
+    TAssociationProblem& problem = result.problem;
+    problem.measurements = m_now.input.measurements;
+    problem.predictionCovariance = predictionCovariance(mean, covariance);
     const double halfView = m_ekf.fieldOfView / 2;
     const bool hasPoster = m_landmarks.hasPoster();
     for (std::size_t k = 0; k < m_landmarks.size(); ++k) {
@@ -144,37 +155,39 @@ TAssociationProblem CSalientEKF2D::problem() {
         expected.z = sighting(mean.head<3>(), mean.segment<2>(3 + row)).z;
         // What lies at the border of view may be seen: three sigma are granted.
         const Eigen::Vector2d slack =
-            3 * result.predictionCovariance.diagonal().segment<2>(row).cwiseSqrt();
+            3 * problem.predictionCovariance.diagonal().segment<2>(row).cwiseSqrt();
         const double sigma = std::max(slack[0], expected.z[0] * slack[1]) / 3;
-        m_now.sigmas.push_back(sigma);
+        result.sigmas.push_back(sigma);
         expected.visible = sigma <= largestSigma(k, hasPoster) &&
                            expected.z[0] <= m_ekf.maxRange + slack[0] &&
                            std::abs(expected.z[1]) <= halfView + slack[1];
-        result.landmarks.push_back(expected);
+        problem.landmarks.push_back(expected);
     }
-    m_detection.state(m_now.input, result);
+    m_detection.state(m_now.input, problem);
     if (m_ratio) {
-        m_now.evidence = std::make_unique<CStepEvidence>(m_evidenceLimits, m_landmarks, m_ratio,
-                                                         result, m_now.input.time);
-        result.logRatio = [this](std::size_t observation, std::size_t landmark) {
-            return m_now.evidence->logRatio(observation, landmark);
+        result.evidence = std::make_unique<CStepEvidence>(m_evidenceLimits, m_landmarks, m_ratio,
+                                                          problem, m_now.input.time);
+        problem.logRatio = [evidence = result.evidence.get()](std::size_t i, std::size_t k) {
+            return evidence->logRatio(i, k);
         };
     }
+    result.association = m_associator->associate(problem);
     return result;
 }
 
 void CSalientEKF2D::associate() {
-    const TAssociationProblem posed = problem();
-    m_now.association = m_associator->associate(posed);
-    m_dropped += m_now.association->dropped;
-    for (const auto& decision : m_now.association->decisions) {
+    m_now.judgement = judged();
+    if (m_explainsSlips && suspectsSlip(*m_now.judgement)) considerSlip();
+    const association::TAssociation& association = m_now.judgement->association;
+    m_dropped += association.dropped;
+    for (const auto& decision : association.decisions) {
         m_now.landmarks.push_back(decision.landmark);
         m_now.decisions.push_back(decisionOf(decision.verdict));
     }
     m_now.confirms.assign(m_now.decisions.size(), false);
     holdBackCorners();
     holdBackEntities();
-    noteAssociation(posed);
+    noteAssociation();
 }
 
 bool CSalientEKF2D::sees(ELandmarkKind kind) const {
@@ -238,12 +251,13 @@ landmarks::TSighting CSalientEKF2D::sightingOf(const TMeasurement& measurement) 
 
 void CSalientEKF2D::learn() {
     const auto& measurements = m_now.input.measurements;
+    const auto& evidence = m_now.judgement->evidence;
     for (std::size_t i = 0; i < measurements.size(); ++i) {
         const bool created = m_now.decisions[i] == EDecision::created;
         if (!created && m_now.decisions[i] != EDecision::paired) continue;
         const auto index = static_cast<std::size_t>(m_now.landmarks[i]);
         // Asked before the table changes: what the pairing was judged by.
-        const bool counted = !created && m_now.evidence && m_now.evidence->counts(i, index);
+        const bool counted = !created && evidence && evidence->counts(i, index);
         if (m_now.confirms[i])
             m_landmarks.setConfirmed(index, true);
         else if (created && measurements[i].kind == ELandmarkKind::salient &&

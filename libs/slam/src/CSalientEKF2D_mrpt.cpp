@@ -63,7 +63,7 @@ void CSalientEKF2D::OnGetObservationsAndDataAssociation(vector_KFArray_OBS& z,
                                                         const std::vector<size_t>& /*indicesInS*/,
                                                         const KFMatrix_OxO& /*R*/) {
     // MRPT asks again if a paired landmark was not predicted: the answer must stay the same.
-    if (!m_now.association) associate();
+    if (!m_now.judgement) associate();
     z.clear();
     pairings.clear();
     m_now.rowToObservation.clear();

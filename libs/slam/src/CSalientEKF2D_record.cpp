@@ -9,14 +9,16 @@
 
 namespace salma::slam {
 
-void CSalientEKF2D::noteAssociation(const association::TAssociationProblem& problem) {
+void CSalientEKF2D::noteAssociation() {
+    const TJudgement& judgement = *m_now.judgement;
+    const association::TAssociationProblem& problem = judgement.problem;
     const double time = m_now.input.time;
-    for (const auto& candidate : m_now.association->candidates)
+    for (const auto& candidate : judgement.association.candidates)
         m_record.candidates.push_back({time, candidate.observation,
                                        m_landmarks[candidate.landmark].id, candidate.distance2,
                                        candidate.logRatio, candidate.chosen, candidate.inGate});
     for (std::size_t i = 0; i < problem.measurements.size(); ++i) {
-        const int landmark = m_now.association->decisions[i].landmark;
+        const int landmark = judgement.association.decisions[i].landmark;
         if (landmark < 0) continue;
         const auto& m = problem.measurements[i];
         const Eigen::Vector2d nu =
@@ -35,8 +37,8 @@ void CSalientEKF2D::noteDecisions() {
         const int id = index < 0 || decision == EDecision::provisional
                            ? -1
                            : m_landmarks[static_cast<std::size_t>(index)].id;
-        m_record.associations.push_back(
-            associationRow(m_now.input, i, decision, m_now.association->decisions[i], id));
+        m_record.associations.push_back(associationRow(
+            m_now.input, i, decision, m_now.judgement->association.decisions[i], id));
     }
 }
 

@@ -14,6 +14,8 @@ void TRelocationOptions::visit(config::COptionVisitor& v) {
     v.number("gap_m", gap, config::atLeast(0),
              "travel between it and the landmarks that it is compared with");
     v.number("every_m", every, config::moreThan(0), "travel between two attempts");
+    v.number("propose", propose, config::anyNumber(),
+             "least score of an alignment by the local map that is judged by all since [nats]");
     v.number("accept", accept, config::anyNumber(), "least score of an alignment [nats]");
     v.number("margin", margin, config::atLeast(0), "least lead over the second-best one [nats]");
     v.number("drift_factor", driftFactor, config::atLeast(1),

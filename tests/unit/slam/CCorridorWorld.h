@@ -25,6 +25,8 @@ struct TCorridorOptions {
     double driftFactor{1};   //!< True odometry noise over the stated one.
     double statedFactor{1};  //!< Stated noise over that of good wheels.
     double headingBias{0};   //!< Systematic drift [rad/m].
+    int slipAt{0};           //!< Step in which the wheels slip; 0: never.
+    double slip{0};          //!< What odometry reads too much then [m].
 };
 
 /** Rectangular rings of corridor, 20 m by 10 m and 2 m wide: a door of 0.9 m every 2.5 m on all
@@ -53,6 +55,7 @@ class CCorridorWorld {
             m_options.driftFactor * sample<3>(step.increment.cov.asEigen());
         step.increment.mean = {motion[0] + error[0], error[1],
                                motion[2] + error[2] + m_options.headingBias * motion[0]};
+        if (m_count == m_options.slipAt) step.increment.mean.x_incr(m_options.slip);
         step.odometry = m_odometry = m_odometry + step.increment.mean;
         step.laser = scan();
         if (m_count % 3 == 0) {

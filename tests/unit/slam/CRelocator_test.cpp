@@ -18,19 +18,25 @@ double ratio(const observations::TPatch& a, const observations::TPatch& b) {
 class CTwoPictures {
  public:
     /// \param views Where the sensors looked then. \param third One more picture between both.
-    void passAt(double y, bool local, const TViews& views = {}, bool third = false) {
+    /// \param mark What tells these pictures from others.
+    void passAt(
+        double y, bool local, const TViews& views = {}, bool third = false, double mark = 1.5) {
         TPastStep step;
         static_cast<TViews&>(step) = views;
-        step.increment = {m_history.empty() ? 0.0 : 40.0, 0, 0};
+        step.increment = {m_history.empty() ? 0.0 : apart, 0, 0};
         step.Q.diagonal() << kDrift * kDrift, kDrift * kDrift, 0.01;
         step.pose = {10, y, 0};
-        for (const double side : {-1.0, 1.0}) see({10 + side, y + 1}, 1.5 + side, local, step);
-        if (third) see({10, y + 1}, 1.5, local, step);
+        for (const double side : {-1.0, 1.0}) see({10 + side, y + 1}, mark + side, local, step);
+        if (third) see({10, y + 1}, mark, local, step);
         m_history.add(step);
         m_pose = step.pose;
     }
 
-    TRelocation relocated(const TRelocationOptions& options = {}) {
+    double apart{40};  //!< Travel between two passes [m].
+
+ private:
+    template <class QUESTION>
+    auto ask(QUESTION question, const TRelocationOptions& options) {
         const auto size = static_cast<Eigen::Index>(3 + 2 * m_places.size());
         Eigen::VectorXd mean(size);
         mean.head<3>() = m_pose;
@@ -44,7 +50,21 @@ class CTwoPictures {
         }
         covariance += kDrift * kDrift * drift * drift.transpose();
         const PatchRatio compare = ratio;
-        return CRelocator(options).find({m_landmarks, mean, covariance, m_history, compare});
+        CRelocator relocator(options);
+        return question(relocator, {m_landmarks, mean, covariance, m_history, compare});
+    }
+
+ public:
+    TRelocation relocated(const TRelocationOptions& options = {}) {
+        return ask([](CRelocator& r, const TRelocationInput& input) { return r.find(input); },
+                   options);
+    }
+
+    /// An alignment judged by everything, with both maps as they lie.
+    TAlignment extended(const TAlignment& alignment, const TRelocationOptions& options) {
+        return ask([&](CRelocator& r,
+                       const TRelocationInput& input) { return r.extended(input, alignment); },
+                   options);
     }
 
  private:
@@ -88,7 +108,7 @@ TEST(CRelocator, DoesNotChooseBetweenTwoPlacesAlike) {
     world.passAt(0, false);
     world.passAt(16, false);
     world.passAt(8, true);
-    EXPECT_EQ(world.relocated().outcome, ERelocation::unproved) << "look-alikes say little";
+    EXPECT_FALSE(CRelocator().proves(world.relocated().best)) << "look-alikes say little";
     TRelocationOptions options;
     options.accept = -100;  // the margin alone
     const TRelocation doubtful = world.relocated(options);
@@ -159,8 +179,48 @@ TEST(CRelocator, AsksForTheScore) {
     world.passAt(0, false);
     world.passAt(8, true);
     TRelocationOptions strict;
-    strict.accept = 1000;
+    strict.propose = 1000;
     EXPECT_EQ(world.relocated(strict).outcome, ERelocation::unproved);
+    strict.accept = 1000;
+    const TAlignment best = world.relocated().best;
+    EXPECT_FALSE(CRelocator(strict).proves(best));
+    EXPECT_TRUE(CRelocator().proves(best));
+}
+
+TEST(CRelocator, JudgesEachPassOnItsOwn) {
+    const auto posters = [](bool anotherFloor) {
+        CTwoPictures world;
+        world.passAt(0, false);
+        // Other pictures in the same place: the floor above, drawn onto the one below.
+        if (anotherFloor) world.passAt(0.1, false, {}, false, 7);
+        world.passAt(8, true);
+        const TAlignment best = world.relocated().best;
+        EXPECT_EQ(best.matchedPosters(), 2u);
+        EXPECT_LT(best.leftTo, 60) << "the second pass is 80 m from the start";
+        return best.posters;
+    };
+    EXPECT_NEAR(posters(true), posters(false), 0.1);
+}
+
+TEST(CRelocator, AsksWhatWasSeenBeforeTheLocalMap) {
+    const auto judged = [](double mark) {
+        TRelocationOptions options;
+        options.localTravel = 5;  // only the last pass
+        CTwoPictures world;
+        world.apart = 12;
+        world.passAt(0, false);
+        world.passAt(20, false, {}, false, 7);
+        world.passAt(0, true, {}, false, mark);
+        world.passAt(20, true, {}, false, 7);
+        const TAlignment local = world.relocated(options).best;
+        EXPECT_EQ(local.matchedPosters(), 2u);
+        return world.extended(local, options);
+    };
+    const TAlignment confirmed = judged(1.5), contradicted = judged(12);
+    EXPECT_EQ(confirmed.matchedPosters(), 4u);
+    EXPECT_EQ(contradicted.matchedPosters(), 2u);
+    EXPECT_TRUE(CRelocator().proves(confirmed));
+    EXPECT_GT(confirmed.posters, contradicted.posters + 6);
 }
 
 }  // namespace

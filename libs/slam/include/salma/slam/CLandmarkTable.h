@@ -64,6 +64,8 @@ class CLandmarkTable {
 
     std::size_t size() const { return m_landmarks.size(); }
     const TLandmark& operator[](std::size_t index) const { return m_landmarks[index]; }
+    /// \throw std::invalid_argument if no landmark has this id.
+    std::size_t indexOf(int id) const;
 
     /** Appends a landmark, without a sighting yet. \return Its id: the identity of the measurement
      * if it has one that no landmark uses, else the smallest number above all ids. */

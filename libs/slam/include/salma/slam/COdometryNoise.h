@@ -11,6 +11,7 @@ namespace salma::slam {
 struct TOdometryOptions : public config::TStrictOptions<TOdometryOptions> {
     double alongPerMetre{0.12};   //!< In the direction of travel, after one metre [m].
     double acrossPerMetre{0.02};  //!< Sideways, after one metre [m].
+    double scaleSigma{0.05};      //!< Of the length of a metre before it is learned; 0: it is not.
     double headingPerMetre{mrpt::DEG2RAD(1.5)};   //!< After one metre [rad].
     double headingPerRadian{mrpt::DEG2RAD(2.5)};  //!< After one radian of turning [rad].
     double minPosition{1e-4};                 //!< Added in each step in which the robot moves [m].

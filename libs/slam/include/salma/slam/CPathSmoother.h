@@ -13,7 +13,7 @@ namespace salma::slam {
 struct TSmoothed {
     std::vector<Eigen::Vector3d> poses;  //!< After each step (x, y, heading), world [m, rad].
     Eigen::VectorXd mean;                //!< Last pose, then (x, y) of each landmark [3 + 2N].
-    RowMatrix covariance;                //!< Of `mean`.
+    RowMatrix covariance;                //!< Of `mean`; empty if it was not asked for.
     std::vector<double> misfit;          //!< By landmark, mean of its squared normalised residuals.
     double cost{0};                      //!< Sum of the squared normalised residuals.
     int iterations{0};
@@ -35,11 +35,13 @@ class CPathSmoother {
     /** \param history Its poses are where the iteration starts.
      * \param ids Of the landmarks, in the order of the result.
      * \param start Their places to start from, world [m].
+     * \param withCovariance It takes as long as the rest.
      * \throw std::invalid_argument if a measurement is of another landmark, or a landmark has none.
      * \throw std::runtime_error if the normal equations cannot be solved. */
     TSmoothed smooth(const CPathHistory& history,
                      const std::vector<int>& ids,
-                     const std::vector<Eigen::Vector2d>& start) const;
+                     const std::vector<Eigen::Vector2d>& start,
+                     bool withCovariance = true) const;
 
  private:
     int m_maxIterations;

@@ -38,6 +38,8 @@ struct TSameLandmark {
 struct TAlignment {
     Eigen::Vector3d T{0, 0, 0};  //!< World as the filter has it to the left map (x, y, turn).
     std::vector<TSameLandmark> pairs;
+    /// Stretch of the path, as travel, whose map the local one is laid onto [m].
+    double leftFrom{0}, leftTo{0};
     double posters{0};    //!< What posters say, seen and missed [nats].
     double signs{0};      //!< What posters say of which the building has several [nats].
     double corners{0};    //!< What corners say [nats].
@@ -61,7 +63,6 @@ struct TRelocation {
     ERelocation outcome{ERelocation::nothing};
     TAlignment best;
     double margin{0};  //!< Lead over the second-best alignment; infinite without one [nats].
-    std::size_t alignments{0};  //!< That were looked at.
 };
 
 /// Log ratios by the ids of two landmarks and the numbers of their sightings, which may add views.
@@ -90,7 +91,16 @@ class CRelocator {
     explicit CRelocator(const TRelocationOptions& options = {},
                         const TDetectionOptions& detection = {});
 
+    /// The best alignment of the local map; `found` if it reaches `propose` and leads by `margin`.
     TRelocation find(const TRelocationInput& input);
+
+    /** An alignment judged by all that was seen since the robot left the landmarks that it matched.
+     *
+     * \param laid Both maps laid together as the alignment has it, bent as they may be. */
+    TAlignment extended(const TRelocationInput& laid, const TAlignment& alignment);
+
+    /// Whether it reaches `accept`.
+    bool proves(const TAlignment& alignment) const;
 
  private:
     TRelocationOptions m_options;

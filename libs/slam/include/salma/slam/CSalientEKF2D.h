@@ -11,6 +11,7 @@
 #include <salma/slam/CSlamBackend.h>
 #include <salma/slam/CStepEvidence.h>
 #include <salma/slam/TEkfOptions.h>
+#include <salma/slam/TSlipOptions.h>
 #include <salma/slam/blockFilter.h>
 
 #include <map>
@@ -23,6 +24,7 @@ namespace salma::slam {
 struct TMapCare {
     TDetectionOptions detection;
     TRelocationOptions relocation;
+    TSlipOptions slip;
 };
 
 /** EKF-SLAM of posters and corners on the state of MRPT's range-bearing filter.
@@ -46,6 +48,7 @@ class CSalientEKF2D : public mrpt::slam::CRangeBearingKFSLAM2D, public CSlamBack
 
     void process(const TStepInput& step) override;
     mrpt::poses::CPosePDFGaussian pose() const override;
+    TStepMotion motion() const override { return m_now.motion; }
     void results(TRunRecord& record) const override;
     void finish() override;
 
@@ -71,17 +74,38 @@ class CSalientEKF2D : public mrpt::slam::CRangeBearingKFSLAM2D, public CSlamBack
     void OnNewLandmarkAddedToMap(const size_t row, const size_t index) override;
 
  private:
+    /// What a step's measurements show, given one prediction.
+    struct TJudgement {
+        std::vector<double> sigmas;               //!< By landmark, how vaguely predicted [m].
+        std::unique_ptr<CStepEvidence> evidence;  //!< None without appearance.
+        association::TAssociationProblem problem;
+        association::TAssociation association;
+    };
     /// What the current step has come to so far.
     struct TCurrentStep {
         TStepInput input;
-        std::unique_ptr<CStepEvidence> evidence;               //!< None without appearance.
-        std::optional<association::TAssociation> association;  //!< Made once, after prediction.
-        std::vector<EDecision> decisions;                      //!< By measurement.
-        std::vector<int> landmarks;  //!< By measurement, index in the state; -1: none.
+        std::optional<TJudgement> judgement;  //!< Made once, after prediction.
+        std::vector<EDecision> decisions;     //!< By measurement.
+        std::vector<int> landmarks;           //!< By measurement, index in the state; -1: none.
         std::vector<bool> confirms;  //!< By measurement: the last view that a landmark needed.
         std::vector<std::size_t> rowToObservation;  //!< Of MRPT's list of measurements.
-        bool closesLoop{false};                     //!< Landmarks not seen for long were paired.
-        std::vector<double> sigmas;  //!< By landmark, how vaguely it was predicted [m].
+        TStepMotion motion;
+        bool closesLoop{false};  //!< Landmarks not seen for long were paired.
+    };
+
+    /// The run as it would be with two maps in one.
+    struct TJoined {
+        CPathHistory history;
+        CLandmarkTable landmarks;
+        std::vector<Eigen::Vector2d> places;   //!< Of the landmarks, to start from [m].
+        std::vector<std::pair<int, int>> ids;  //!< Gone, kept.
+        TSmoothed smoothed;
+    };
+
+    struct TLaid {
+        CPathHistory history;
+        CLandmarkTable landmarks;
+        Eigen::VectorXd mean;
     };
 
     // A caller of MRPT's own entry point would go past the association and the record.
@@ -90,13 +114,20 @@ class CSalientEKF2D : public mrpt::slam::CRangeBearingKFSLAM2D, public CSlamBack
     void stepByBlock();
     void stepByMrpt();
     void associate();
-    association::TAssociationProblem problem();
+    TJudgement judged() const;
+    bool suspectsSlip(const TJudgement& judgement) const;
+    bool isTracked(std::size_t landmark) const;
+    std::vector<double> possibleSlips(const TJudgement& judgement) const;
+    Eigen::Vector2d motionDirection() const;
+    Eigen::Matrix3d slipCovariance() const;
+    void considerSlip();
     void holdBackCorners();
     void holdBackEntities();
     bool sees(association::ELandmarkKind kind) const;
     EDecision told(std::size_t observation) const;
     landmarks::TSighting sightingOf(const association::TMeasurement& measurement) const;
     void enterLandmark(std::size_t observation, std::size_t index);
+    bool tracksLandmarks() const;
     void learn();
     Eigen::Matrix3d poseCovariance() const;
     void smooth();
@@ -106,11 +137,18 @@ class CSalientEKF2D : public mrpt::slam::CRangeBearingKFSLAM2D, public CSlamBack
     void noteUse();
     double largestSigma(std::size_t landmark, bool hasPoster) const;
     void relocate();
-    bool isWorthAJoin(const TRelocation& found) const;
-    bool join(const TAlignment& alignment);
+    bool isWorthAJoin(const TAlignment& alignment) const;
+    TJoined bent(const TAlignment& alignment) const;
+    TJoined joined(const TAlignment& alignment, bool withCovariance) const;
+    std::optional<TJoined> fitting(TAlignment& alignment, bool withCovariance) const;
+    TLaid laid(const TJoined& all) const;
+    bool extend(TAlignment& alignment);
+    bool join(TRelocation& found);
+    void refuse();
+    void accept(TJoined all);
     void noteRelocation(const std::string& outcome, const TRelocation& found);
     void setState(const TSmoothed& smoothed);
-    void noteAssociation(const association::TAssociationProblem& problem);
+    void noteAssociation();
     void noteDecisions();
     void notePose();
     THeading heading() const;
@@ -128,7 +166,7 @@ class CSalientEKF2D : public mrpt::slam::CRangeBearingKFSLAM2D, public CSlamBack
     CDetectionModel m_detection;
     /// Methods that never defer, and MRPT's step, which has one covariance for all measurements,
     /// stay as they are.
-    bool m_relocates;
+    bool m_relocates, m_explainsSlips;
     CPathHistory m_history;
     std::map<int, double> m_lastUsed;  //!< By id, travel when a landmark was last used [m].
     CRelocator m_relocator;

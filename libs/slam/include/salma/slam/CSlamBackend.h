@@ -2,6 +2,7 @@
 #pragma once
 
 #include <mrpt/math/TPoint2D.h>
+#include <mrpt/poses/CPose2D.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 #include <mrpt/poses/CPosePDFGaussian.h>
 #include <salma/slam/TRunRecord.h>
@@ -39,6 +40,14 @@ struct TStepInput : TViews {
     std::optional<TSpatialStep> spatial;  //!< Only for filters in space.
 };
 
+/// How the robot really moved in a step.
+struct TStepMotion {
+    mrpt::poses::CPose2D motion;  //!< T_r(k-1)_r(k) after the step.
+    bool isKnown{false};          //!< By landmarks, and not by odometry alone.
+    /// What odometry lacked, for the wheels slipped; in the frame of the robot after the motion.
+    mrpt::poses::CPose2D slip;
+};
+
 /// A way to make a trajectory and a map of measurements.
 class CSlamBackend {
  public:
@@ -46,6 +55,9 @@ class CSlamBackend {
 
     /// \throw std::invalid_argument if `step` is not finite or its vectors' sizes do not agree.
     virtual void process(const TStepInput& step) = 0;
+
+    /// What it made of the motion of the last step.
+    virtual TStepMotion motion() const { return {}; }
 
     /// After the last step: puts the map into its final form.
     virtual void finish() {}

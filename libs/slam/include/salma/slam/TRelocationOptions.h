@@ -15,7 +15,8 @@ struct TRelocationOptions : public config::TStrictOptions<TRelocationOptions> {
     double localTravel{25};  //!< Landmarks first seen within so much travel are the local map [m].
     double gap{8};           //!< Between local map and what it is compared with, at least [m].
     double every{0.5};       //!< Travel between two attempts [m].
-    double accept{5.5};      //!< Least score of the best alignment [nats].
+    double propose{1};       //!< Least score of an alignment that is looked at closely [nats].
+    double accept{6.5};      //!< Least score of the best alignment [nats].
     double margin{4};        //!< Least lead over the second-best one [nats].
     double driftFactor{2};   //!< Odometry may err so many times as much as it states.
     double driftOutlier{0.02};  //!< Share of runs in which the pose is lost altogether.
