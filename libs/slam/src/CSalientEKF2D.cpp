@@ -97,6 +97,7 @@ void CSalientEKF2D::process(const TStepInput& step) {
     learn();
     if (keepsHistory()) remember();
     if (m_relocates) {
+        removeAbsent();
         relocate();
         if (m_now.closesLoop && m_history.back().travel >= m_lastSmoothing + smoothingTravel)
             smooth();

@@ -28,6 +28,8 @@ void TEkfOptions::visit(config::COptionVisitor& v) {
               "least difference in viewing angle between two kept views");
     v.degrees("decorrelation_deg", decorrelation, config::between(0, 180),
               "appearance counts again in one track after this change of the viewing angle");
+    v.number("remove_after", removeAfter, config::atLeast(0),
+             "landmarks go that were looked for in vain so long [nats], 0: never (saliency)");
     v.number("track_gap_s", trackGap, config::atLeast(0),
              "a landmark not paired for longer begins another track");
 }

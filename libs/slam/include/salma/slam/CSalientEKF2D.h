@@ -17,6 +17,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 
 namespace salma::slam {
 
@@ -102,10 +103,19 @@ class CSalientEKF2D : public mrpt::slam::CRangeBearingKFSLAM2D, public CSlamBack
         TSmoothed smoothed;
     };
 
+    /// Path and landmarks as a join would have them, before it.
     struct TLaid {
         CPathHistory history;
         CLandmarkTable landmarks;
         Eigen::VectorXd mean;
+    };
+
+    /// How a landmark was met so far.
+    struct TLooks {
+        double farthest{0};  //!< Distance from which it was seen [m].
+        std::set<int> from;  //!< Directions from it to the robot that saw it, in sectors.
+        double inVain{0};    //!< - log probability of having missed it since it was last seen.
+        double lastVain{0};  //!< Travel at the last look in vain [m].
     };
 
     // A caller of MRPT's own entry point would go past the association and the record.
@@ -135,6 +145,10 @@ class CSalientEKF2D : public mrpt::slam::CRangeBearingKFSLAM2D, public CSlamBack
     bool keepsHistory() const;
     void remember();
     void noteUse();
+    void removeAbsent();
+    bool knowsPlace() const;
+    bool isMissing(std::size_t landmark) const;
+    void remove(std::size_t landmark);
     double largestSigma(std::size_t landmark, bool hasPoster) const;
     void relocate();
     bool isWorthAJoin(const TAlignment& alignment) const;
@@ -169,6 +183,8 @@ class CSalientEKF2D : public mrpt::slam::CRangeBearingKFSLAM2D, public CSlamBack
     bool m_relocates, m_explainsSlips;
     CPathHistory m_history;
     std::map<int, double> m_lastUsed;  //!< By id, travel when a landmark was last used [m].
+    bool m_knowsPlace{false};          //!< At the last scan.
+    std::map<int, TLooks> m_looks;     //!< By id.
     CRelocator m_relocator;
     TRelocation m_lastRelocation;
     double m_lastAttempt{0};          //!< Travel at it [m].

@@ -34,6 +34,9 @@ struct TEkfOptions : public config::TStrictOptions<TEkfOptions> {
     double patchSpread{M_PI / 12};   //!< Two kept views differ at least so much in incidence [rad].
     /// In one track appearance counts again after this change of the viewing angle [rad].
     double decorrelation{35 * M_PI / 180};
+    /// Landmarks that should have been seen go once all missed them by chance with a probability
+    /// of exp(-this); 0: never.
+    double removeAfter{8};
     double trackGap{10};  //!< A landmark that was not paired for longer begins another track [s].
 
     void visit(config::COptionVisitor& v);

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is taken off its wall leaves the map, and nothing else does.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "CCorridorWorld.h"
+
+namespace salma::slam {
+namespace {
+
+using test::CCorridorWorld;
+using test::TCorridorOptions;
+
+struct TDrive {
+    TRunRecord record;
+    std::map<int, std::map<std::size_t, int>> features;  //!< By landmark, how often it was which.
+    std::size_t taken{0};
+
+    /// Landmarks that were mostly this feature.
+    std::size_t count(std::size_t feature) const {
+        std::size_t result = 0;
+        for (const TMapLandmark& landmark : record.landmarks) {
+            const auto seen = features.find(landmark.id);
+            if (seen == features.end()) continue;
+            const auto other = seen->second.find(feature);
+            result += other != seen->second.end() && 2 * other->second > total(seen->second);
+        }
+        return result;
+    }
+
+ private:
+    static int total(const std::map<std::size_t, int>& seen) {
+        int sum = 0;
+        for (const auto& entry : seen) sum += entry.second;
+        return sum;
+    }
+};
+
+/// Two laps; what was seen at the step `after` is taken down half a lap later.
+TDrive drive(double removeAfter, bool takesDown) {
+    TCorridorOptions options;
+    options.seed = 5;
+    CCorridorWorld world(options);
+    TEkfOptions ekf;
+    ekf.removeAfter = removeAfter;
+    CSalientEKF2D filter(ekf, {}, CCorridorWorld::ratio);
+    TDrive drive;
+    for (int k = 0; !world.done(); ++k) {
+        filter.process(world.next());
+        if (k == 60) drive.taken = world.truth().back();
+        if (k == 300 && takesDown) world.takeDown(drive.taken);
+    }
+    filter.results(drive.record);
+    for (std::size_t i = 0; i < drive.record.associations.size(); ++i)
+        if (drive.record.associations[i].landmark >= 0)
+            ++drive.features[drive.record.associations[i].landmark][world.truth()[i]];
+    return drive;
+}
+
+TEST(Removal, TakesWhatIsGoneAndNothingElse) {
+    const TDrive kept = drive(0, true), removed = drive(6, true), whole = drive(6, false);
+    EXPECT_EQ(kept.record.removed, 0u);
+    EXPECT_EQ(kept.count(kept.taken), 1u);
+    EXPECT_EQ(removed.taken, kept.taken);
+    EXPECT_EQ(removed.count(removed.taken), 0u);
+    EXPECT_EQ(removed.record.removed, 1u);
+    EXPECT_EQ(removed.record.landmarks.size() + 1, kept.record.landmarks.size());
+    EXPECT_EQ(whole.record.removed, 0u) << "all that hangs is found again";
+}
+
+}  // namespace
+}  // namespace salma::slam
