@@ -54,9 +54,9 @@ struct TAlignment {
 
 enum class ERelocation {
     nothing,    //!< No local map, no other map, or no alignment at all.
-    unproved,   //!< The best alignment explains the local map no better than a new place.
+    unproved,   //!< The best alignment explains what was seen no better than a new place.
     ambiguous,  //!< Another alignment is nearly as good.
-    found
+    found       //!< Worth a closer look.
 };
 
 struct TRelocation {
@@ -82,8 +82,11 @@ using TRatioCache = std::map<std::array<int, 4>, double>;
  *  - odometry: log density of the shift that it would have to have made, its covariance widened by
  *    `driftFactor`, mixed with being lost altogether. That a place is near does not prove that it
  *    is the same (there are other floors): against "a new place" it only speaks against.
- * Found is an alignment that reaches `accept`, leads by `margin`, and whose pairs are jointly
- * compatible under the covariance of both maps. Source: Neira, Tardos and Castellanos, ICRA 2003
+ * What falls together is parted by the passes in which the left map was made, each an alignment of
+ * its own: of two floors that lie on each other one may be meant and the other not. Worth a closer
+ * look is an alignment that reaches `propose`, leads by `margin`, and whose pairs are jointly
+ * compatible under the covariance of both maps; it is proved if it reaches `accept` with all that
+ * was seen since the robot left what it matched. Source: Neira, Tardos and Castellanos, ICRA 2003
  * (geometric constraints); scores own. */
 class CRelocator {
  public:
