@@ -16,8 +16,7 @@ void drive(double metres, double read, bool known, COdometryScale& scale, double
     step.motion = {kStep, 0, 0};
     step.isKnown = known;
     step.slip = {slip, 0, 0};
-    for (int i = 0; i < std::lround(metres / kStep); ++i)
-        scale.learn({read * kStep, 0, 0}, step);
+    for (int i = 0; i < std::lround(metres / kStep); ++i) scale.learn({read * kStep, 0, 0}, step);
 }
 
 TEST(COdometryScale, LearnsHowLongAMetreIs) {
@@ -47,8 +46,7 @@ TEST(COdometryScale, AgreesWithNoise) {
     TStepMotion step;
     step.motion = {kStep, 0, 0};
     step.isKnown = true;
-    for (int i = 0; i < 1000; ++i)
-        scale.learn({kStep / 0.95 + noise(random), 0, 0}, step);
+    for (int i = 0; i < 1000; ++i) scale.learn({kStep / 0.95 + noise(random), 0, 0}, step);
     EXPECT_NEAR(scale.excess(), -0.05, 3 * scale.sigma());
 }
 

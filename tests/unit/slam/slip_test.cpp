@@ -16,9 +16,9 @@ using test::TCorridorOptions;
 constexpr int kSlipAt = 60;  // step, 6 m into the first side
 
 struct TDrive {
-    double slip{0};     //!< That the filter told at the slip [m].
-    int told{0};        //!< Slips told over the drive.
-    double error{0};    //!< Distance from the truth five steps later [m].
+    double slip{0};        //!< That the filter told at the slip [m].
+    int told{0};           //!< Slips told over the drive.
+    double error{0};       //!< Distance from the truth five steps later [m].
     std::size_t twice{0};  //!< Landmarks more than features that were seen.
 };
 
@@ -43,8 +43,8 @@ TDrive driveWithSlip(double length, bool explain) {
     std::vector<std::size_t> seen = world.truth();
     std::sort(seen.begin(), seen.end());
     const auto features = std::unique(seen.begin(), seen.end()) - seen.begin();
-    drive.twice = filter.landmarks().size() -
-                  std::min<std::size_t>(filter.landmarks().size(), features);
+    drive.twice =
+        filter.landmarks().size() - std::min<std::size_t>(filter.landmarks().size(), features);
     return drive;
 }
 
