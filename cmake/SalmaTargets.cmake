@@ -67,11 +67,11 @@ function(salma_add_bench name)
     OUTPUT_NAME ${name} RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bench)
 endfunction()
 
-# salma_add_test(<name> LABEL <label> SOURCES <cpp>... LINK <target>...)
-# One test program; every TEST in it is a ctest of its own.
+# salma_add_test(<name> [ALONE] LABEL <label> SOURCES <cpp>... LINK <target>...)
+# One test program; every TEST in it is a ctest of its own. ALONE: none runs beside another test.
 function(salma_add_test name)
   include(GoogleTest)
-  cmake_parse_arguments(A "" "LABEL;TIMEOUT" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(A "ALONE" "LABEL;TIMEOUT" "SOURCES;LINK" ${ARGN})
   if(NOT A_TIMEOUT)
     set(A_TIMEOUT 120)
   endif()
@@ -81,7 +81,7 @@ function(salma_add_test name)
   add_executable(${name} ${A_SOURCES})
   target_link_libraries(${name} PRIVATE ${A_LINK} salma_test_support GTest::gtest_main salma_flags)
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST
-                       PROPERTIES LABELS ${A_LABEL} TIMEOUT ${A_TIMEOUT})
+                       PROPERTIES LABELS ${A_LABEL} TIMEOUT ${A_TIMEOUT} RUN_SERIAL ${A_ALONE})
 endfunction()
 
 function(salma_install_package)

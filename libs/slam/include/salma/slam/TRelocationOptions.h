@@ -11,7 +11,7 @@ namespace salma::slam {
 struct TRelocationOptions : public config::TStrictOptions<TRelocationOptions> {
     bool use{true};            //!< Look for the local map in the map that was left behind.
     double anchorSigma{M_PI};  //!< Heading less sure: state covariances anew [rad].
-    double unsure{0.08};  //!< A landmark of the left map predicted less surely is not paired [m].
+    double unsure{0.1};  //!< A landmark of the left map predicted less surely is not paired [m].
     double localTravel{25};  //!< Landmarks first seen within so much travel are the local map [m].
     double gap{8};           //!< Between local map and what it is compared with, at least [m].
     double every{0.5};       //!< Travel between two attempts [m].
