@@ -47,12 +47,7 @@ CLocalMapSearch::CLocalMapSearch(const TRelocationOptions& options,
 /// Into the local map and the one left behind; what lies between belongs to neither.
 void CLocalMapSearch::split(double since) {
     const CPathHistory& history = m_input.history;
-    std::map<int, std::pair<std::size_t, std::size_t>> steps;
-    for (std::size_t k = 0; k < history.size(); ++k)
-        for (const auto& used : history[k].used) {
-            const auto [entry, isNew] = steps.insert({used.landmark, {k, k}});
-            if (!isNew) entry->second.second = k;
-        }
+    const auto steps = history.steps();
     TMarks others;
     m_localStart = history.size();
     for (std::size_t i = 0; i < m_input.landmarks.size(); ++i) {

@@ -36,19 +36,19 @@ void COdometryScale::learn(const mrpt::poses::CPose2D& odometry, const TStepMoti
     if (!step.isKnown) return;
     m_unseen = 0;
     const double length = m_odometry.norm();
-    if (!m_isOpen || length >= stretch) {
-        if (m_isOpen) {
-            const double innovation = m_motion.norm() / length - 1 - m_excess;
-            const double noise = m_alongPerMetre * m_alongPerMetre / length;
-            const double S = m_variance + noise;
-            if (innovation * innovation <= gate * S) {
-                m_excess += m_variance / S * innovation;
-                m_variance *= noise / S;
-            }
-        }
+    if (m_isOpen && length < stretch) return;
+    if (m_isOpen) measure(m_motion.norm() / length - 1, length);
+    begin();
+}
 
-        begin();
-    }
+/// One stretch: a Kalman update of the scale.
+void COdometryScale::measure(double excess, double length) {
+    const double innovation = excess - m_excess;
+    const double noise = m_alongPerMetre * m_alongPerMetre / length;
+    const double S = m_variance + noise;
+    if (!(innovation * innovation <= gate * S)) return;
+    m_excess += m_variance / S * innovation;
+    m_variance *= noise / S;
 }
 
 }  // namespace salma::slam

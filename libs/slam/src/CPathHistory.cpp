@@ -26,12 +26,12 @@ void CPathHistory::erase(int landmark) {
             step.used.end());
 }
 
-std::optional<std::pair<std::size_t, std::size_t>> CPathHistory::stepsOf(int landmark) const {
-    std::optional<std::pair<std::size_t, std::size_t>> found;
+std::map<int, std::pair<std::size_t, std::size_t>> CPathHistory::steps() const {
+    std::map<int, std::pair<std::size_t, std::size_t>> result;
     for (std::size_t k = 0; k < m_steps.size(); ++k)
         for (const TUsedMeasurement& used : m_steps[k].used)
-            if (used.landmark == landmark) found = {found ? found->first : k, k};
-    return found;
+            result.insert({used.landmark, {k, k}}).first->second.second = k;
+    return result;
 }
 
 }  // namespace salma::slam

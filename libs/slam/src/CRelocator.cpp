@@ -36,11 +36,11 @@ TRelocation CRelocator::find(const TRelocationInput& input) {
 }
 
 TAlignment CRelocator::extended(const TRelocationInput& laid, const TAlignment& alignment) {
+    const auto steps = laid.history.steps();
     double leftEnd = 0;
-    for (const TSameLandmark& pair : alignment.pairs) {
-        const auto steps = laid.history.stepsOf(laid.landmarks[pair.left].id);
-        leftEnd = std::max(leftEnd, laid.history[steps->second].travel);
-    }
+    for (const TSameLandmark& pair : alignment.pairs)
+        leftEnd =
+            std::max(leftEnd, laid.history[steps.at(laid.landmarks[pair.left].id).second].travel);
     return CLocalMapSearch(m_options, m_detection, laid, leftEnd + m_options.gap, m_ratios)
         .asTheyLie(alignment);
 }

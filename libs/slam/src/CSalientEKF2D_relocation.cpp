@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "CMapJoin.h"
 #include "planeMotion.h"
 
 namespace salma::slam {
@@ -16,6 +17,7 @@ using association::ELandmarkKind;
 
 namespace {
 
+constexpr int extensions = 3;         // of the local map; more add nothing
 constexpr double closerTravel = 1.5;  // to the next attempt after a closer look [m]
 constexpr double refusedTravel = 3;   // to the next attempt after a join that failed [m]
 constexpr double unsureNearby = 0.5;  // of the prediction of a landmark that was just used [m]
@@ -83,22 +85,21 @@ void CSalientEKF2D::relocate() {
     const TFilterState now = state();
     const Eigen::VectorXd mean = now.mean;
     const RowMatrix covariance = now.covariance;
-    TRelocation& found = m_lastRelocation;
-    found = m_relocator.find(
+    TRelocation found = m_relocator.find(
         {m_landmarks, mean, covariance, m_history, m_ratio, m_ekf.maxRange, m_ekf.fieldOfView / 2});
     if (found.outcome == ERelocation::found && isWorthAJoin(found.best)) {
-        if (!extend(found.best)) return refuse();
+        if (!extend(found.best)) return refuse(found);
         m_lastAttempt += closerTravel;
         if (!m_relocator.proves(found.best)) found.outcome = ERelocation::unproved;
-        if (found.outcome == ERelocation::found && !join(found)) return refuse();
+        if (found.outcome == ERelocation::found && !join(found)) return refuse(found);
     }
     if (found.outcome == ERelocation::unproved) noteRelocation("unproved", found);
     if (found.outcome == ERelocation::ambiguous) noteRelocation("ambiguous", found);
 }
 
 /// Half a metre later it would be the same.
-void CSalientEKF2D::refuse() {
-    noteRelocation("refused", m_lastRelocation);
+void CSalientEKF2D::refuse(const TRelocation& found) {
+    noteRelocation("refused", found);
     m_lastAttempt += refusedTravel;
 }
 
@@ -113,10 +114,54 @@ bool CSalientEKF2D::isWorthAJoin(const TAlignment& alignment) const {
     return isOutOfReach ? pairs.size() >= 4 || posters >= 2 : pairs.size() >= 4 && posters >= 2;
 }
 
+/* The local map is short, so that it is stiff. Once it is laid onto the other, what was seen before
+ * it falls into place as well, and may speak for the alignment or against it. False if the path
+ * does not allow the alignment. */
+bool CSalientEKF2D::extend(TAlignment& alignment) {
+    const Eigen::VectorXd mean = state().mean;
+    const RowMatrix covariance = state().covariance;
+    const CMapJoin join(m_history, m_landmarks, mean);
+    for (int round = 0; round < extensions; ++round) {
+        const auto joined = join.fitting(alignment, false);
+        if (!joined) return false;
+        const TLaidMaps both = join.laid(*joined);
+        const std::size_t before = alignment.pairs.size();
+        alignment = m_relocator.extended({both.landmarks, both.mean, covariance, both.history,
+                                          m_ratio, m_ekf.maxRange, m_ekf.fieldOfView / 2},
+                                         alignment);
+        if (alignment.pairs.size() <= before) break;
+    }
+    return true;
+}
+
+bool CSalientEKF2D::join(TRelocation& found) {
+    const Eigen::VectorXd mean = state().mean;
+    auto joined = CMapJoin(m_history, m_landmarks, mean).fitting(found.best, true);
+    if (!joined) return false;
+    noteRelocation("joined", found);  // by the ids before the join
+    for (std::size_t i = 0; i < m_now.landmarks.size(); ++i) {
+        if (m_now.landmarks[i] < 0) continue;
+        const int id = m_landmarks[static_cast<std::size_t>(m_now.landmarks[i])].id;
+        if (joined->keptOf.count(id) != 0) m_now.decisions[i] = EDecision::relocated;
+        m_now.landmarks[i] = static_cast<int>(joined->indexOf(id));
+    }
+    for (const auto& [gone, kept] : joined->keptOf) {
+        m_history.rename(gone, kept);
+        m_lastUsed[kept] = std::max(m_lastUsed[kept], m_lastUsed[gone]);
+        m_lastUsed.erase(gone);
+        m_looks.forget(gone);
+    }
+    m_landmarks = std::move(joined->landmarks);
+    setState(joined->smoothed);
+    ++m_record.joins;
+    return true;
+}
+
 /// The history's poses are those of before.
 void CSalientEKF2D::setState(const TSmoothed& smoothed) {
+    const auto steps = m_history.steps();
     for (std::size_t i = 0; i < m_landmarks.size(); ++i) {
-        const std::size_t last = m_history.stepsOf(m_landmarks[i].id)->second;
+        const std::size_t last = steps.at(m_landmarks[i].id).second;
         m_landmarks.turn(i, smoothed.poses[last][2] - m_history[last].pose[2]);
     }
     const Eigen::Vector3d motion =

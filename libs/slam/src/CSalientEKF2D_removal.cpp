@@ -3,7 +3,6 @@
 #include <salma/slam/CSalientEKF2D.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace salma::slam {
 
@@ -11,13 +10,6 @@ namespace {
 
 constexpr std::size_t leastPairings = 3;  // in a step of a robot that knows where it is
 constexpr double sharpEnough = 0.1;       // sigma of a prediction that says where to look [m]
-constexpr double anotherLook = 0.5;       // travel: what hid it a step ago hides it still [m]
-constexpr int sectors = 8;                // in which directions from a landmark are told apart
-
-int sectorOf(const Eigen::Vector2d& fromLandmark) {
-    const double turn = std::atan2(fromLandmark.y(), fromLandmark.x()) / (2 * M_PI) + 0.5;
-    return std::clamp(static_cast<int>(turn * sectors), 0, sectors - 1);
-}
 
 }  // namespace
 
@@ -36,34 +28,24 @@ bool CSalientEKF2D::isMissing(std::size_t landmark) const {
                         [landmark](const auto& c) { return c.landmark == landmark; });
 }
 
-/* Several looks in vain, each from where it was seen before: a corner may be hidden from elsewhere
- * by what no ray tells, such as the wall that it is the edge of. */
 void CSalientEKF2D::removeAbsent() {
     if (!(m_ekf.removeAfter > 0)) return;
     if (m_now.input.scanned) m_knowsPlace = knowsPlace();
-    const double travel = m_history.back().travel;
     std::vector<bool> seen(m_landmarks.size(), false);
     for (const int index : m_now.landmarks)
         if (index >= 0) seen[static_cast<std::size_t>(index)] = true;
     std::vector<std::size_t> gone;
     for (std::size_t k = 0; k < m_landmarks.size(); ++k) {
-        TLooks& looks = m_looks[m_landmarks[k].id];
+        const int id = m_landmarks[k].id;
         const Eigen::Vector2d back =
             poseMean().head<2>() - Eigen::Vector2d(m_xkk[3 + 2 * k], m_xkk[4 + 2 * k]);
-        if (seen[k]) {
-            looks.inVain = 0;
-            looks.farthest = std::max(looks.farthest, back.norm());
-            looks.from.insert(sectorOf(back));
-            continue;
-        }
-        if (!m_knowsPlace || !isMissing(k) || back.norm() > looks.farthest ||
-            looks.from.count(sectorOf(back)) == 0 || travel < looks.lastVain + anotherLook)
-            continue;
-        const double found = m_now.judgement->problem.landmarks[k].detection->probability();
-        if (!(found > 0.1)) continue;
-        looks.inVain -= std::log1p(-found);
-        looks.lastVain = travel;
-        if (looks.inVain >= m_ekf.removeAfter) gone.push_back(k);
+        if (seen[k])
+            m_looks.see(id, back);
+        else if (m_knowsPlace && isMissing(k) &&
+                 m_looks.miss(id, back, m_history.back().travel,
+                              m_now.judgement->problem.landmarks[k].detection->probability()) >=
+                     m_ekf.removeAfter)
+            gone.push_back(k);
     }
     for (auto k = gone.rbegin(); k != gone.rend(); ++k) remove(*k);
 }
@@ -93,7 +75,7 @@ void CSalientEKF2D::remove(std::size_t landmark) {
     sigmas.erase(sigmas.begin() + static_cast<std::ptrdiff_t>(landmark));
     m_history.erase(id);
     m_lastUsed.erase(id);
-    m_looks.erase(id);
+    m_looks.forget(id);
     ++m_record.removed;
 }
 

@@ -131,7 +131,7 @@ TEST(CPathSmoother, TellsByTheMisfitWhetherTwoJoinedLandmarksAreOne) {
     for (const auto& [id, misfit] : right) EXPECT_LT(misfit, 3) << id << ": of 1 expected";
     const TExample e = example(40);
     const int other = *std::find_if(e.ids.begin(), e.ids.end(), [&](int id) {
-        return e.history.stepsOf(id)->second > 10 && id != kept;
+        return e.history.steps().at(id).second > 10 && id != kept;
     });
     EXPECT_GT(misfitsOfJoined(e, other, kept)[kept], 4) << "what a join of maps is refused for";
 }
@@ -171,12 +171,12 @@ TEST(CPathHistory, KnowsWhereALandmarkWasUsed) {
         history.add(step);
     }
     EXPECT_EQ(history.back().travel, 2);
-    EXPECT_EQ(history.stepsOf(5), (std::pair<std::size_t, std::size_t>(1, 2)));
+    EXPECT_EQ(history.steps().at(5), (std::pair<std::size_t, std::size_t>(1, 2)));
     history.rename(7, 5);
-    EXPECT_EQ(history.stepsOf(5), (std::pair<std::size_t, std::size_t>(1, 3)));
-    EXPECT_FALSE(history.stepsOf(7));
+    EXPECT_EQ(history.steps().at(5), (std::pair<std::size_t, std::size_t>(1, 3)));
+    EXPECT_EQ(history.steps().count(7), 0u);
     history.erase(5);
-    EXPECT_FALSE(history.stepsOf(5));
+    EXPECT_EQ(history.steps().count(5), 0u);
 }
 
 TEST(anchorAtRobot, LeavesWhatIsPredictedAsItIs) {

@@ -38,10 +38,13 @@ struct TDrive {
     }
 };
 
-/// Two laps; what was seen at the step `after` is taken down half a lap later.
-TDrive drive(double removeAfter, bool takesDown) {
+/// Two laps. \param takesDown What was seen at step 60 hangs there until step 300.
+/// \param slip At step 300: too long for the filter to explain [m].
+TDrive drive(double removeAfter, bool takesDown, double slip = 0) {
     TCorridorOptions options;
     options.seed = 5;
+    options.slipAt = 300;
+    options.slip = slip;
     CCorridorWorld world(options);
     TEkfOptions ekf;
     ekf.removeAfter = removeAfter;
@@ -68,6 +71,10 @@ TEST(Removal, TakesWhatIsGoneAndNothingElse) {
     EXPECT_EQ(removed.record.removed, 1u);
     EXPECT_EQ(removed.record.landmarks.size() + 1, kept.record.landmarks.size());
     EXPECT_EQ(whole.record.removed, 0u) << "all that hangs is found again";
+}
+
+TEST(Removal, WaitsUntilTheRobotKnowsWhereItIs) {
+    EXPECT_EQ(drive(6, false, 1.7).record.removed, 0u);
 }
 
 }  // namespace

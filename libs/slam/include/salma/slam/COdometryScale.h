@@ -29,6 +29,7 @@ class COdometryScale {
 
  private:
     void begin();
+    void measure(double excess, double length);
 
     double m_alongPerMetre;
     double m_excess{0}, m_variance{0};

@@ -4,7 +4,7 @@
 #include <salma/slam/TViews.h>
 
 #include <Eigen/Core>
-#include <optional>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -47,8 +47,8 @@ class CPathHistory {
     /// Forgets the measurements of a landmark.
     void erase(int landmark);
 
-    /// Steps that used a landmark, the first and the last; nothing if none did.
-    std::optional<std::pair<std::size_t, std::size_t>> stepsOf(int landmark) const;
+    /// By id of each landmark that was used, the first and the last step that did.
+    std::map<int, std::pair<std::size_t, std::size_t>> steps() const;
 
  private:
     std::vector<TPastStep> m_steps;

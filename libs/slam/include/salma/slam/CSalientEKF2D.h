@@ -10,6 +10,7 @@
 #include <salma/slam/CRelocator.h>
 #include <salma/slam/CSlamBackend.h>
 #include <salma/slam/CStepEvidence.h>
+#include <salma/slam/CVainLooks.h>
 #include <salma/slam/TEkfOptions.h>
 #include <salma/slam/TSlipOptions.h>
 #include <salma/slam/blockFilter.h>
@@ -17,7 +18,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 
 namespace salma::slam {
 
@@ -56,8 +56,6 @@ class CSalientEKF2D : public mrpt::slam::CRangeBearingKFSLAM2D, public CSlamBack
     const CLandmarkTable& landmarks() const { return m_landmarks; }
     /// Pairs that the tests of the association excluded, over all steps.
     const association::TDropCounts& dropped() const { return m_dropped; }
-    /// The last attempt to find the local map on the one that was left behind.
-    const TRelocation& lastRelocation() const { return m_lastRelocation; }
 
  protected:
     // Hooks of MRPT's step, for `update = mrpt` only.
@@ -94,30 +92,6 @@ class CSalientEKF2D : public mrpt::slam::CRangeBearingKFSLAM2D, public CSlamBack
         bool closesLoop{false};  //!< Landmarks not seen for long were paired.
     };
 
-    /// The run as it would be with two maps in one.
-    struct TJoined {
-        CPathHistory history;
-        CLandmarkTable landmarks;
-        std::vector<Eigen::Vector2d> places;   //!< Of the landmarks, to start from [m].
-        std::vector<std::pair<int, int>> ids;  //!< Gone, kept.
-        TSmoothed smoothed;
-    };
-
-    /// Path and landmarks as a join would have them, before it.
-    struct TLaid {
-        CPathHistory history;
-        CLandmarkTable landmarks;
-        Eigen::VectorXd mean;
-    };
-
-    /// How a landmark was met so far.
-    struct TLooks {
-        double farthest{0};  //!< Distance from which it was seen [m].
-        std::set<int> from;  //!< Directions from it to the robot that saw it, in sectors.
-        double inVain{0};    //!< - log probability of having missed it since it was last seen.
-        double lastVain{0};  //!< Travel at the last look in vain [m].
-    };
-
     // A caller of MRPT's own entry point would go past the association and the record.
     using CRangeBearingKFSLAM2D::processActionObservation;
 
@@ -126,10 +100,7 @@ class CSalientEKF2D : public mrpt::slam::CRangeBearingKFSLAM2D, public CSlamBack
     void associate();
     TJudgement judged() const;
     bool suspectsSlip(const TJudgement& judgement) const;
-    bool isTracked(std::size_t landmark) const;
-    std::vector<double> possibleSlips(const TJudgement& judgement) const;
-    Eigen::Vector2d motionDirection() const;
-    Eigen::Matrix3d slipCovariance() const;
+    std::vector<bool> tracked() const;
     void considerSlip();
     void holdBackCorners();
     void holdBackEntities();
@@ -152,14 +123,9 @@ class CSalientEKF2D : public mrpt::slam::CRangeBearingKFSLAM2D, public CSlamBack
     double largestSigma(std::size_t landmark, bool hasPoster) const;
     void relocate();
     bool isWorthAJoin(const TAlignment& alignment) const;
-    TJoined bent(const TAlignment& alignment) const;
-    TJoined joined(const TAlignment& alignment, bool withCovariance) const;
-    std::optional<TJoined> fitting(TAlignment& alignment, bool withCovariance) const;
-    TLaid laid(const TJoined& all) const;
     bool extend(TAlignment& alignment);
     bool join(TRelocation& found);
-    void refuse();
-    void accept(TJoined all);
+    void refuse(const TRelocation& found);
     void noteRelocation(const std::string& outcome, const TRelocation& found);
     void setState(const TSmoothed& smoothed);
     void noteAssociation();
@@ -184,9 +150,8 @@ class CSalientEKF2D : public mrpt::slam::CRangeBearingKFSLAM2D, public CSlamBack
     CPathHistory m_history;
     std::map<int, double> m_lastUsed;  //!< By id, travel when a landmark was last used [m].
     bool m_knowsPlace{false};          //!< At the last scan.
-    std::map<int, TLooks> m_looks;     //!< By id.
+    CVainLooks m_looks;
     CRelocator m_relocator;
-    TRelocation m_lastRelocation;
     double m_lastAttempt{0};          //!< Travel at it [m].
     double m_lastSmoothing{0};        //!< Likewise [m].
     Eigen::Vector3d m_base{0, 0, 0};  //!< Pose from which the covariance is stated.
