@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "CMapJoin.h"
+#include <salma/slam/CMapJoin.h>
 
 #include <algorithm>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // When the local map is looked for in the map that was left behind.
 #include <mrpt/math/wrap2pi.h>
+#include <salma/slam/CMapJoin.h>
 #include <salma/slam/CPathSmoother.h>
 #include <salma/slam/CSalientEKF2D.h>
 
@@ -8,7 +9,6 @@
 #include <cmath>
 #include <limits>
 
-#include "CMapJoin.h"
 #include "planeMotion.h"
 
 namespace salma::slam {

@@ -27,12 +27,13 @@ class CTwoPictures {
         step.Q.diagonal() << kDrift * kDrift, kDrift * kDrift, 0.01;
         step.pose = {10, y, 0};
         for (const double side : {-1.0, 1.0}) see({10 + side, y + 1}, mark + side, local, step);
-        if (third) see({10, y + 1}, mark, local, step);
+        if (third) see({10, y + 1}, thirdMark, local, step);
         m_history.add(step);
         m_pose = step.pose;
     }
 
-    double apart{40};  //!< Travel between two passes [m].
+    double apart{40};       //!< Travel between two passes [m].
+    double thirdMark{1.5};  //!< What tells the third picture from others.
 
  private:
     template <class QUESTION>
@@ -191,9 +192,10 @@ TEST(CRelocator, JudgesEachPassOnItsOwn) {
     const auto posters = [](bool anotherFloor) {
         CTwoPictures world;
         world.passAt(0, false);
-        // Other pictures in the same place: the floor above, drawn onto the one below.
-        if (anotherFloor) world.passAt(0.1, false, {}, false, 7);
-        world.passAt(8, true);
+        // Other pictures in the same place, one of them a print: the floor above, drawn onto the
+        // one below.
+        if (anotherFloor) world.passAt(0.1, false, {}, true, 7);
+        world.passAt(8, true, {}, anotherFloor);
         const TAlignment best = world.relocated().best;
         EXPECT_EQ(best.matchedPosters(), 2u);
         EXPECT_LT(best.leftTo, 60) << "the second pass is 80 m from the start";

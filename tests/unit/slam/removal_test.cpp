@@ -38,13 +38,12 @@ struct TDrive {
     }
 };
 
-/// Two laps. \param takesDown What was seen at step 60 hangs there until step 300.
-/// \param slip At step 300: too long for the filter to explain [m].
-TDrive drive(double removeAfter, bool takesDown, double slip = 0) {
+enum class EGone { nothing, one, all };
+
+/// Two laps; at step 300 what was seen at step 60 is taken down, or everything is.
+TDrive drive(double removeAfter, EGone gone) {
     TCorridorOptions options;
     options.seed = 5;
-    options.slipAt = 300;
-    options.slip = slip;
     CCorridorWorld world(options);
     TEkfOptions ekf;
     ekf.removeAfter = removeAfter;
@@ -53,7 +52,9 @@ TDrive drive(double removeAfter, bool takesDown, double slip = 0) {
     for (int k = 0; !world.done(); ++k) {
         filter.process(world.next());
         if (k == 60) drive.taken = world.truth().back();
-        if (k == 300 && takesDown) world.takeDown(drive.taken);
+        if (k == 300 && gone == EGone::one) world.takeDown(drive.taken);
+        if (k == 300 && gone == EGone::all)
+            for (std::size_t i = 0; i < world.features(); ++i) world.takeDown(i);
     }
     filter.results(drive.record);
     for (std::size_t i = 0; i < drive.record.associations.size(); ++i)
@@ -63,7 +64,8 @@ TDrive drive(double removeAfter, bool takesDown, double slip = 0) {
 }
 
 TEST(Removal, TakesWhatIsGoneAndNothingElse) {
-    const TDrive kept = drive(0, true), removed = drive(6, true), whole = drive(6, false);
+    const TDrive kept = drive(0, EGone::one), removed = drive(6, EGone::one),
+                 whole = drive(6, EGone::nothing);
     EXPECT_EQ(kept.record.removed, 0u);
     EXPECT_EQ(kept.count(kept.taken), 1u);
     EXPECT_EQ(removed.taken, kept.taken);
@@ -74,7 +76,7 @@ TEST(Removal, TakesWhatIsGoneAndNothingElse) {
 }
 
 TEST(Removal, WaitsUntilTheRobotKnowsWhereItIs) {
-    EXPECT_EQ(drive(6, false, 1.7).record.removed, 0u);
+    EXPECT_EQ(drive(2, EGone::all).record.removed, 0u) << "nothing tells it where it is";
 }
 
 }  // namespace
